@@ -1,0 +1,2 @@
+function(gloam_compile_shaders target)
+endfunction()

@@ -1,0 +1,254 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// A scene as a file holds it: meshes, materials, nodes, cameras, lights, animation. Plain data, no behaviour beyond
+// reading, writing and posing. World: right-handed, +Y up, metres. Light: linear Rec. 709 radiance.
+#pragma once
+
+#include <gloam/error.h>
+#include <gloam/progress.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gloam {
+
+inline constexpr int kNone = -1;  ///< an index that points nowhere
+
+/// An 8-bit RGBA picture; rows from the top, as glTF has them. Whether it is sRGB or linear follows from its use.
+struct Texture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  ///< width * height * 4
+};
+
+enum class Wrap : std::uint8_t { kRepeat, kClampToEdge, kMirroredRepeat };
+
+/// Where a material takes a texture from.
+struct TextureSlot {
+  int texture = kNone;  ///< index into Scene::textures
+  int uv_set = 0;       ///< index into Mesh::uv_sets
+  Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
+  bool nearest = false;              ///< magnification filter
+  glm::mat3 texture_from_uv{1.0f};   ///< KHR_texture_transform, applied to (u, v, 1)
+  explicit operator bool() const { return texture != kNone; }
+};
+
+/// glTF's metallic-roughness material. It is shaded as a Lambert and a Phong lobe (math/brdf.h):
+/// k_d = base (1 - metallic), k_s = mix(0.04, base, metallic), exponent n = max(1, 2 / roughness^4 - 2).
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0f};
+  float metallic = 1.0f;
+  float roughness = 1.0f;
+  glm::vec3 emission{0.0f};  ///< radiance: emissiveFactor times KHR_materials_emissive_strength
+  float normal_scale = 1.0f;
+  float occlusion_strength = 1.0f;  ///< read and kept; not used in lighting, which computes its own occlusion
+  bool alpha_mask = false;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  TextureSlot base_color_map;          ///< sRGB; alpha is used with alpha_mask
+  TextureSlot metallic_roughness_map;  ///< linear; G roughness, B metallic
+  TextureSlot normal_map;              ///< linear
+  TextureSlot occlusion_map;           ///< linear; R
+  TextureSlot emission_map;            ///< sRGB
+};
+
+/// Displacements of one morph target; each array is empty or as long as Mesh::positions.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals, tangents;
+};
+
+/// Precomputed radiance transfer of a mesh's vertices (PRT-1), without the receiver's own albedo / pi. In the mesh's own
+/// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart.
+struct Transfer {
+  int order = 0;                  ///< n bands, n^2 coefficients a vertex
+  int bounces = 0;                ///< interreflection passes contained in `indirect`
+  int directions = 0;             ///< directions a vertex in the first pass
+  std::vector<float> direct;      ///< DS: [vertex][coefficient], size vertices * order^2
+  std::vector<float> indirect;    ///< DI - DS: [vertex][coefficient][rgb], size vertices * order^2 * 3; empty without bounces
+};
+
+/// Triangles that share a material: a glTF primitive. All vertex arrays have the length of `positions` or are empty
+/// (normals and tangents are never empty after reading a file: missing ones are computed).
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec4> tangents;  ///< xyz and the sign of the bitangent
+  std::vector<std::vector<glm::vec2>> uv_sets;
+  std::vector<glm::vec4> colors;
+  int influences = 0;                 ///< joints a vertex: 0, 4, 8 …
+  std::vector<std::uint16_t> joints;  ///< [vertex][influence], indices into Skin::joints
+  std::vector<float> weights;         ///< [vertex][influence], sums to 1
+  std::vector<MorphTarget> morph_targets;
+  std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from outside
+  int material = 0;                    ///< index into Scene::materials; always valid
+  std::shared_ptr<const Transfer> transfer;  ///< null unless baked
+
+  std::size_t vertexCount() const { return positions.size(); }
+  std::size_t triangleCount() const { return indices.size() / 3; }
+};
+
+struct Camera {
+  std::string name;
+  bool perspective = true;
+  float vertical_fov_rad = 0.8f;
+  float aspect = 0.0f;       ///< width / height; 0: that of the picture
+  float half_height = 1.0f;  ///< orthographic
+  float z_near = 0.05f;
+  float z_far = std::numeric_limits<float>::infinity();
+};
+
+/// Punctual light (KHR_lights_punctual). Shines along -Z of its node. Colour times intensity is stored as one value:
+/// candela for point and spot, lux for directional, in linear Rec. 709.
+struct Light {
+  enum class Type : std::uint8_t { kDirectional, kPoint, kSpot };
+  std::string name;
+  Type type = Type::kPoint;
+  glm::vec3 intensity{1.0f};
+  float range = 0.0f;  ///< 0: unlimited
+  float inner_cone_rad = 0.0f;
+  float outer_cone_rad = 0.785398163f;
+};
+
+struct Skin {
+  std::vector<int> joints;                        ///< node indices
+  std::vector<glm::mat4> joint_from_mesh;         ///< inverse bind matrices, one a joint
+};
+
+struct Node {
+  std::string name;
+  int parent = kNone;
+  std::vector<int> children;
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< w, x, y, z
+  glm::vec3 scale{1.0f};
+  std::optional<glm::mat4> matrix;  ///< instead of translation, rotation, scale where the file gives one
+  std::vector<int> meshes;          ///< indices into Scene::meshes: the primitives of a glTF mesh
+  int skin = kNone, camera = kNone, light = kNone;
+  std::vector<float> morph_weights;
+  std::vector<glm::mat4> instances;  ///< EXT_mesh_gpu_instancing: node_from_instance; empty: one, the identity
+};
+
+struct AnimationChannel {
+  enum class Path : std::uint8_t { kTranslation, kRotation, kScale, kWeights };
+  enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
+  int node = kNone;
+  Path path = Path::kTranslation;
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<float> times_s;
+  std::vector<float> values;  ///< components a key; three times as many for cubic splines (in, value, out)
+  int components = 3;
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+/// Light from infinitely far away: an equirectangular map or an analytic sky.
+/// u = atan2(z, x) / 2 pi + 1/2, v = asin(y) / pi + 1/2, v up; pixels are stored with the top row (v = 1) first.
+struct Environment {
+  std::string name;  ///< file, or the sky's name
+  int width = 0, height = 0;
+  std::vector<glm::vec3> radiance;  ///< width * height
+  float rotation_rad = 0.0f;        ///< turns the light about +Y, counter-clockwise seen from above
+  float intensity = 1.0f;
+  bool empty() const { return radiance.empty(); }
+};
+
+/// All of a file. Indices are checked by the reader: whoever gets a Scene may use them unchecked.
+struct Scene {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::vector<int> roots;  ///< nodes of the scene that is shown
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  std::vector<Skin> skins;
+  std::vector<Animation> animations;
+  Environment environment;  ///< empty unless the scene brings its own (EXT_lights_image_based, built-in scenes)
+  Warnings warnings;        ///< what the reader mended or left out
+
+  float duration_s() const;  ///< time of the last key of all animations
+};
+
+/// Reads .gltf, .glb, and .obj, .ply, .off, .fbx, .3ds where built with assimp; `builtin:NAME` makes a scene by code.
+/// Throws Error that names the file and the field.
+Scene loadScene(const std::string& path_or_name, const Progress& progress = {});
+
+/// Names of the scenes that are made by code, each with a line that says what it shows.
+struct BuiltinScene {
+  const char* name;
+  const char* summary;
+};
+const std::vector<BuiltinScene>& builtinScenes();
+
+struct WriteOptions {
+  bool half_float = false;  ///< store transfer as 16-bit floats
+};
+/// Writes a .glb (docs/formats/ describes the extension that holds transfer). Writes beside the target and renames;
+/// throws Error where the file cannot be written.
+void writeGlb(const Scene& scene, const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// Reads an equirectangular .hdr or .exr, or makes an analytic sky by name ("sky:mild", "sky:uniform", …, as
+/// `gloam list` shows). Throws Error.
+Environment loadEnvironment(const std::string& path_or_name);
+const std::vector<BuiltinScene>& builtinSkies();
+/// Radiance that arrives from a direction, bilinear, with the environment's rotation and intensity.
+glm::vec3 radianceFrom(const Environment& environment, const glm::vec3& direction);
+
+// ---- A scene at one instant ---------------------------------------------------------------------------------------
+
+/// One mesh standing in the world.
+struct Instance {
+  int mesh = kNone;  ///< index into Scene::meshes
+  int node = kNone;
+  glm::mat4 world_from_object{1.0f};
+  /// Vertices of skinned or morphed meshes, already in world space; empty for rigid ones. Where set, world_from_object
+  /// is the identity.
+  std::vector<glm::vec3> deformed_positions, deformed_normals;
+  std::vector<glm::vec4> deformed_tangents;
+  bool deformed() const { return !deformed_positions.empty(); }
+};
+
+struct PosedCamera {
+  Camera camera;
+  glm::mat4 world_from_view{1.0f};  ///< looks along -Z
+};
+
+struct PosedLight {
+  Light light;
+  glm::vec3 position{0.0f};
+  glm::vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way it shines
+};
+
+/// What is where at a time. Keeps no pointer into the scene.
+struct PosedScene {
+  float time_s = 0.0f;
+  std::vector<Instance> instances;
+  std::vector<PosedCamera> cameras;
+  std::vector<PosedLight> lights;
+  glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};  ///< of all vertices
+};
+
+/// Evaluates animation at a time (clamped to each channel's range), skins and morphs on all cores.
+PosedScene pose(const Scene& scene, float time_s);
+
+/// A camera that shows all of the scene: used where a file has none.
+PosedCamera framingCamera(const PosedScene& posed, float aspect);
+/// Turns a camera about the vertical axis through the middle of the scene.
+PosedCamera orbit(const PosedCamera& camera, const PosedScene& posed, float angle_rad);
+
+}  // namespace gloam
