@@ -1,0 +1,52 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Baking precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-3).
+#pragma once
+
+#include <gloam/progress.h>
+#include <gloam/scene.h>
+
+#include <filesystem>
+
+namespace gloam {
+
+enum class TransferKind {
+  kUnshadowed,      ///< DU: the clamped cosine alone
+  kShadowed,        ///< DS
+  kInterreflected,  ///< DI: `bounces` passes on top of DS
+};
+
+struct BakeOptions {
+  TransferKind kind = TransferKind::kInterreflected;
+  int order = 5;           ///< 3 to 6
+  int bounces = 2;         ///< for kInterreflected, 1 to 64
+  int directions = 10000;  ///< a vertex in the first pass, 256 to 65536; rounded up to whole tiles of 16
+  int bounce_directions = 2048;  ///< a prefix of the same set
+  int threads = 0;         ///< 0: all cores. The result does not depend on it
+  float time_s = 0.0f;     ///< instant at which the scene is posed
+  std::filesystem::path checkpoint;  ///< finished work is kept here and taken up again; empty: none. Removed at the end
+};
+
+/// What a bake will take, before it starts.
+struct BakeEstimate {
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t memory_bytes = 0, file_bytes = 0;
+};
+BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options);
+
+struct BakeReport {
+  std::size_t vertices = 0;
+  std::size_t rays = 0;        ///< of the first pass
+  double first_pass_s = 0.0;   ///< wall clock
+  double bounces_s = 0.0;
+  bool resumed = false;
+};
+
+/// Bakes all rigid meshes of the scene as one object in its pose: every mesh shadows and lights every other. Instances
+/// are made unique first, since each has its own transfer. Same bits for any number of threads. Throws Error for a
+/// scene without triangles or with skinned meshes only, Interrupted when asked to stop (the checkpoint stays).
+Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
+                   BakeReport* report = nullptr);
+
+}  // namespace gloam
