@@ -100,6 +100,17 @@ void writeImage(const Image& image, const std::filesystem::path& path);
 /// The bytes that writePng stores, interleaved.
 std::vector<std::uint8_t> encodeSrgb8(const Image& image);
 
+enum class ToneMap : std::uint8_t { kNone, kAces };
+
+/// How linear radiance becomes light of a display: times 2^exposure_stops, then the curve (src/image/tonemap.h).
+struct DisplayOptions {
+  ToneMap tone_map = ToneMap::kAces;
+  float exposure_stops = 0.0f;
+  bool auto_exposure = false;  ///< first brings the log-average luminance to middle grey
+};
+/// Linear 0 to 1, as writePng takes it (which encodes sRGB). Alpha is kept.
+Image toneMapped(const Image& radiance, const DisplayOptions& options);
+
 /// The first pixel that is infinite or not a number, in the order of storage.
 struct PixelPlace {
   int x, y, channel;

@@ -89,8 +89,6 @@ struct HostDevice {
 
 // ---- Rendering ------------------------------------------------------------------------------------------------------
 
-enum class ToneMap { kNone, kAces };
-
 struct RenderOptions {
   int width = 1024, height = 1024;  ///< 1 to 16384
   int supersample = 1;              ///< 1 to 4: that many times the size in each direction, box-filtered
@@ -111,13 +109,6 @@ struct RenderedFrame {
   LayeredImage layers;
   std::vector<PassTime> passes;
   std::size_t memory_bytes = 0;  ///< device memory held
-};
-
-/// Turns linear radiance into 0..1 for display: 2^exposure_stops, tone curve, sRGB.
-struct DisplayOptions {
-  ToneMap tone_map = ToneMap::kAces;
-  float exposure_stops = 0.0f;
-  bool auto_exposure = false;
 };
 
 /// Draws frames of one scene. Not thread-safe; movable.
