@@ -1,0 +1,128 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// A frame as a list of passes. They run in the order in which they are written down; each says what it reads
+// and writes, and barriers, layouts and timers follow from that.
+//
+//   graph.begin();
+//   auto log_visibility = graph.create("proxies.log_visibility", ImageDesc{.width = w, .height = h});
+//   graph.compute("proxies.accumulate", proxies_accumulate_spv)
+//       .read("receivers", in.receivers).read("proxies", proxies_).write("log_visibility", log_visibility)
+//       .push(AccumulateParams{.proxy_count = n}).dispatchOver(log_visibility);
+//   graph.execute();
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gpu/pass.h"
+
+namespace gloam::gpu {
+
+struct PassTime {
+  std::string name;
+  double milliseconds = 0.0;
+};
+
+/// An image that lives across frames: what was written into `current` is `previous` in the next frame, zero
+/// at first.
+struct ImageHistory {
+  ImageRef previous, current;
+};
+struct BufferHistory {
+  BufferRef previous, current;
+};
+
+/// For a window or a host engine: what to wait for before the frame and to signal after it.
+struct SubmitInfo {
+  VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
+};
+
+class FrameGraph {
+ public:
+  explicit FrameGraph(Device& device);
+  ~FrameGraph();
+  FrameGraph(const FrameGraph&) = delete;
+  FrameGraph& operator=(const FrameGraph&) = delete;
+  Device& device() const;
+
+  /// Starts a new frame; forgets the passes of the last one. Resources that 16 frames did not ask for go.
+  void begin();
+
+  // ---- Resources. Names are unique within a frame: "proxies.log_visibility"
+  // ----------------------------------------
+  /// Lives as long as frames keep asking for it under this name; contents are those of this frame alone: a
+  /// pass that reads it before another wrote it is an Error.
+  ImageRef create(const std::string& name, const ImageDesc& desc);
+  BufferRef create(const std::string& name, const BufferDesc& desc);
+  /// A buffer with these contents, for what changes every frame (camera, lights).
+  template <class T>
+  BufferRef upload(const std::string& name, std::span<const T> data) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return uploadBytes(name, std::as_bytes(data));
+  }
+  template <class T>
+  BufferRef upload(const std::string& name, const std::vector<T>& data) {
+    return upload(name, std::span<const T>(data));
+  }
+  template <class T>
+  BufferRef uploadOne(const std::string& name, const T& value) {
+    return upload(name, std::span<const T>(&value, 1));
+  }
+  /// Gives a resource that lives elsewhere a name in this frame. Passes take such resources without this,
+  /// too.
+  ImageRef import(const std::string& name, const Image& image);
+  BufferRef import(const std::string& name, const Buffer& buffer);
+  ImageHistory history(const std::string& name, const ImageDesc& desc);
+  BufferHistory history(const std::string& name, const BufferDesc& desc);
+  /// Forgets what all history holds: the next frame starts from zero.
+  void resetHistory();
+
+  /// By name, from this frame or, after execute, the one that ran; empty if there is none. Contents stay
+  /// until the next execute: `find("proxies.log_visibility").image().downloadFloats()`.
+  ImageRef find(const std::string& name) const;
+  BufferRef findBuffer(const std::string& name) const;
+  std::vector<std::string> imageNames() const;
+
+  // ---- Passes. "room.verb" names the pass in errors, timers and captures
+  // -------------------------------------------
+  ComputePass& compute(const std::string& name, const ShaderCode& code);
+  RasterPass& raster(const std::string& name, const ShaderCode& vertex, const ShaderCode& fragment);
+  /// Depth only.
+  RasterPass& raster(const std::string& name, const ShaderCode& vertex);
+  HostPass& host(const std::string& name);
+  void clear(const std::string& name, ImageRef image, const std::array<float, 4>& value = {0, 0, 0, 0});
+  void clear(const std::string& name, ImageRef image, const std::array<std::uint32_t, 4>& value);
+  /// Depth images take value[0] of the float version. Buffers: every 32-bit word becomes `word`.
+  void clear(const std::string& name, BufferRef buffer, std::uint32_t word = 0);
+  /// Same size and format: all bits. Else, for colour formats with filtering: scaled, bilinear.
+  void copy(const std::string& name, ImageRef from, ImageRef to);
+  void copy(const std::string& name, BufferRef from, BufferRef to);
+  /// Brings an imported image into a layout that someone else expects after the frame (presentation, a host
+  /// engine).
+  void leaveIn(ImageRef image, VkImageLayout layout);
+
+  // ---- Running
+  // ------------------------------------------------------------------------------------------------------
+  /// Submits all passes; waits only inside host passes and where the frame before the last is still running.
+  void execute(const SubmitInfo& submit = {});
+  /// Until the last executed frame is done.
+  void wait();
+  /// Timers cost a little: off at first.
+  void setTimed(bool timed);
+  /// Of the last executed frame (waits for it), in recorded order; passes of one name are summed. Empty if
+  /// not timed.
+  std::vector<PassTime> times();
+  /// Bytes of transient and history resources.
+  std::uint64_t memoryBytes() const;
+
+ private:
+  struct State;
+  BufferRef uploadBytes(const std::string& name, std::span<const std::byte> data);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gloam::gpu

@@ -1,0 +1,36 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gloam::gpu {
+
+/// How a pass touches a resource: where in the pipeline, with which kind of access, in which layout (images).
+struct Access {
+  VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  bool writes() const;
+};
+
+/// What the device did last with one part of a resource: the last write and all reads since.
+struct PartState {
+  Access write;                              ///< `layout` is the current layout of the part
+  VkPipelineStageFlags2 reads = 0;           ///< stages that read since the last write
+  VkPipelineStageFlags2 visible_stages = 0;  ///< where the last write has been made visible …
+  VkAccessFlags2 visible_access = 0;         ///< … and to which accesses
+};
+
+/// State of a resource: one part for a buffer, layers * mips parts for an image (part = layer * mips + mip).
+struct ResourceState {
+  std::vector<PartState> parts;
+  /// Frame in which a pass last wrote or cleared it; kAlways for resources that hold data from elsewhere.
+  static constexpr std::uint64_t kAlways = ~std::uint64_t{0};
+  std::uint64_t written_in_frame = 0;
+};
+
+}  // namespace gloam::gpu
