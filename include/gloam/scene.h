@@ -43,12 +43,13 @@ struct TextureSlot {
 };
 
 /// glTF's metallic-roughness material. It is shaded as a Lambert and a Phong lobe (math/brdf.h):
-/// k_d = base (1 - metallic), k_s = mix(0.04, base, metallic), exponent n = max(1, 2 / roughness^4 - 2).
+/// k_d = base (1 - metallic), k_s = mix(0.04 specular, base, metallic), exponent n = max(1, 2 / roughness^4 - 2).
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};
   float metallic = 1.0f;
   float roughness = 1.0f;
+  float specular = 1.0f;     ///< KHR_materials_specular's specularFactor, 0 to 1: 0 makes a purely diffuse non-metal
   glm::vec3 emission{0.0f};  ///< radiance: emissiveFactor times KHR_materials_emissive_strength
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;  ///< read and kept; not used in lighting, which computes its own occlusion

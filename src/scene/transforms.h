@@ -1,0 +1,39 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What can be asked of a node's matrix: its translation, rotation and scale, its nearest rotation, how it
+// moves normals.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+
+namespace gloam {
+
+struct Trs {
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< unit
+  glm::vec3 scale{1.0f};                       ///< x is negative where the matrix mirrors
+};
+
+glm::mat4 composeTrs(const Trs& trs);
+
+/// The inverse of composeTrs. Nothing where the matrix shears, projects or flattens (no such triple then
+/// gives it back within 1e-4 of its largest column).
+std::optional<Trs> decomposeTrs(const glm::mat4& matrix);
+
+/// The orthogonal matrix nearest to the given one: the factor Q of its polar decomposition M = Q S, S
+/// symmetric and positive. It is a rotation, or a rotation times a reflection where M mirrors (det < 0).
+/// Baked transfer lives in the axes that it defines: a direction w of the world is transpose(Q) w in the
+/// object's axes. A flattened axis (scale 0) is given the direction that completes the others to a rotation.
+glm::mat3 rotationFactor(const glm::mat3& matrix);
+inline glm::mat3 rotationFactor(const glm::mat4& matrix) {
+  return rotationFactor(glm::mat3(matrix));
+}
+
+/// Inverse transpose up to a positive factor: how normals move; finite also where the matrix has no inverse.
+/// The results are not unit vectors.
+glm::mat3 normalTransform(const glm::mat3& matrix);
+
+}  // namespace gloam
