@@ -189,6 +189,10 @@ struct Scene {
 /// Throws Error that names the file and the field.
 Scene loadScene(const std::string& path_or_name, const Progress& progress = {});
 
+/// Adds a round floor, three times as wide as the scene, under its lowest point at time 0: somewhere for the shadow of a
+/// bare model to fall. `albedo` is linear; `cells` vertices a side, finer toward the middle.
+void addGround(Scene& scene, const glm::vec3& albedo = glm::vec3(0.5f), int cells = 160);
+
 /// Names of the scenes that are made by code, each with a line that says what it shows.
 struct BuiltinScene {
   const char* name;
