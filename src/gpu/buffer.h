@@ -16,6 +16,7 @@ namespace gloam::gpu {
 struct BufferDesc {
   std::size_t bytes = 0;      ///< 0 is allowed: nothing to read, but something to bind
   bool host_visible = false;  ///< can be mapped: for data that host passes exchange with the device
+  bool host_writes = false;   ///< the host fills it every frame: mapped, in memory that the device reads fast
   bool by_address = false;    ///< larger than one binding may be; shaders reach it through address()
   bool operator==(const BufferDesc&) const = default;
 };
@@ -49,8 +50,8 @@ class Buffer {
   VkBuffer handle() const { return buffer_; }
   /// For GL_EXT_buffer_reference; throws Error where the device has no buffer addresses.
   VkDeviceAddress address() const;
-  /// Host-visible buffers only, else null. Valid as long as the buffer; the device must not be using it.
-  std::byte* mapped() const { return mapped_; }
+  /// host_visible and host_writes only, else null. Valid as long as the buffer; the device must not be using it.
+  std::byte* mapped() const;
 
   /// Immediate: waits for the device, copies, waits. Throws Error where it does not fit. Inside a frame use
   /// FrameGraph::upload instead.

@@ -78,7 +78,7 @@ class FrameGraph {
   BufferRef import(const std::string& name, const Buffer& buffer);
   ImageHistory history(const std::string& name, const ImageDesc& desc);
   BufferHistory history(const std::string& name, const BufferDesc& desc);
-  /// Forgets what all history holds: the next frame starts from zero.
+  /// Forgets what all history holds: the frame that begins next starts from zero.
   void resetHistory();
 
   /// By name, from this frame or, after execute, the one that ran; empty if there is none. Contents stay

@@ -32,13 +32,9 @@ class ComputePass : public Binder<ComputePass> {
 
   std::string name;
   Program* program = nullptr;
-  std::array<std::uint32_t, 3> groups{0, 0, 0};
+  std::array<std::uint32_t, 3> size{0, 0, 0};  ///< invocations if `over`, else groups
+  bool over = false, finished = false;
   BufferRef indirect;
-  bool finished = false;
-
- private:
-  std::array<std::uint32_t, 3> localSize() const;
-  void finish();
 };
 
 /// One draw of a raster pass. Binds only what differs from the pass; descriptor sets in which nothing differs
