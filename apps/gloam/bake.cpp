@@ -1,0 +1,163 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// gloam bake: precomputes radiance transfer and stores it in a .glb.
+#include <fmt/core.h>
+#include <gloam/bake.h>
+#include <image/atomic_file.h>
+
+#include "bake_run.h"
+#include "json.h"
+#include "output.h"
+#include "scene_inputs.h"
+#include "verb.h"
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BakeChoice {
+  SceneChoice scene;
+  BakeOptions options;
+  std::string output, kind = "di";
+  bool half_float = false, resume = true, estimate_only = false;
+};
+
+TransferKind kindOf(const std::string& kind) {
+  if (kind == "du") return TransferKind::kUnshadowed;
+  if (kind == "ds") return TransferKind::kShadowed;
+  return TransferKind::kInterreflected;
+}
+
+Json estimateJson(const BakeEstimate& estimate, const BakeOptions& options) {
+  return {{"vertices", estimate.vertices},
+          {"triangles", estimate.triangles},
+          {"rays", estimate.vertices * std::size_t(options.directions)},
+          {"memory_bytes", estimate.memory_bytes},
+          {"file_bytes", estimate.file_bytes}};
+}
+
+// Found before hours of work, not after.
+void checkOutput(const BakeChoice& choice) {
+  if (fs::path(choice.output).extension() != ".glb") {
+    throw Error(choice.output, "expected a name that ends in .glb");
+  }
+  AtomicFile probe(choice.output);
+}
+
+Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& console, BakeReport& report) {
+  std::error_code ignored;
+  const fs::path& checkpoint = choice.options.checkpoint;
+  if (!choice.resume) fs::remove(checkpoint, ignored);
+  if (fs::exists(checkpoint, ignored)) {
+    console.remark(fmt::format("going on from {} (--no-resume starts anew)", checkpoint.string()));
+  }
+  try {
+    return bakeTransfer(scene, choice.options, console.progress(), &report);
+  } catch (const Interrupted&) {
+    const bool kept = fs::exists(checkpoint, ignored);
+    throw Interrupted(kept ? fmt::format("interrupted; the same command goes on from {}", checkpoint.string())
+                           : "interrupted before anything was finished");
+  }
+}
+
+void printResult(const BakeChoice& choice, const BakeReport& report, Console& console) {
+  const double rate = report.first_pass_s > 0.0 ? double(report.rays) / report.first_pass_s : 0.0;
+  std::error_code ignored;
+  const auto size = double(fs::file_size(choice.output, ignored));
+  if (!console.json) {
+    console.remark(fmt::format("wrote {} ({}): {} vertices; first pass {} ({:.1f} Mrays/s), bounces {}{}",
+                               choice.output, bytesText(size), countText(report.vertices),
+                               durationText(report.first_pass_s), rate / 1e6, durationText(report.bounces_s),
+                               report.resumed ? "; resumed" : ""));
+    return;
+  }
+  const BakeOptions& options = choice.options;
+  console.print(jsonText({{"scene", choice.scene.name},
+                          {"output", choice.output},
+                          {"kind", choice.kind},
+                          {"order", options.order},
+                          {"bounces", options.kind == TransferKind::kInterreflected ? options.bounces : 0},
+                          {"directions", options.directions},
+                          {"half_float", choice.half_float},
+                          {"vertices", report.vertices},
+                          {"rays", report.rays},
+                          {"first_pass_s", report.first_pass_s},
+                          {"bounces_s", report.bounces_s},
+                          {"rays_per_s", rate},
+                          {"resumed", report.resumed},
+                          {"file_bytes", size}}));
+}
+
+int runBake(BakeChoice choice, Console& console) {
+  if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_prt.glb";
+  choice.options.kind = kindOf(choice.kind);
+  if (!choice.estimate_only) checkOutput(choice);
+  Scene scene = loadSceneToDraw(choice.scene, console);
+  const BakeEstimate estimate = estimateBake(scene, choice.options);
+  if (choice.estimate_only) {
+    console.print(console.json ? jsonText(estimateJson(estimate, choice.options))
+                               : estimateText(estimate, choice.options));
+    return kDone;
+  }
+  choice.options.checkpoint = choice.output + ".checkpoint";
+  console.remark(estimateText(estimate, choice.options));
+  BakeReport report;
+  const Scene baked = bakeWithCheckpoint(scene, choice, console, report);
+  console.endProgress();
+  writeGlb(baked, choice.output, {.half_float = choice.half_float});
+  printResult(choice, report, console);
+  return kDone;
+}
+
+void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
+  const BakeOptions defaults;
+  BakeOptions& options = choice.options;
+  const auto add = [&app](const char* name, int& value, Range range, const char* help) {
+    addInteger(app, name, value, range, "N", help)->default_str(std::to_string(value))->group("Transfer");
+  };
+  addChoice(app, "--kind", choice.kind, {"du", "ds", "di"},
+            "unshadowed, shadowed, or shadowed and interreflected")
+      ->default_str(choice.kind)
+      ->group("Transfer");
+  add("--order", options.order, {3, 6}, "bands of spherical harmonics; N*N coefficients a vertex");
+  add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di");
+  add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
+  add("--bounce-directions", options.bounce_directions, {256, 65536}, "rays a vertex in each later pass");
+  addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
+      ->default_str("0")
+      ->group("Transfer");
+}
+
+std::function<int()> declareBake(CLI::App& app, Console& console) {
+  const auto choice = std::make_shared<BakeChoice>();
+  addSceneOptions(app, choice->scene);
+  addText(app, "-o,--output", choice->output, "FILE",
+          "the baked scene, a .glb; by default the scene's name and _prt.glb")
+      ->group("Output");
+  addSimulatorOptions(app, *choice);
+  app.add_flag("--half", choice->half_float, "store transfer as 16-bit floats: half the size")
+      ->group("Output");
+  addInteger(app, "--threads", choice->options.threads, {0, 1024}, "N",
+             "0: all cores; the result is the same")
+      ->default_str("0");
+  app.add_flag("--resume,!--no-resume", choice->resume,
+               "go on from an interrupted bake of the same output, or start anew [on]");
+  app.add_flag("--estimate", choice->estimate_only, "say what the bake will take, and stop");
+  addConsoleOptions(app, console, true);
+  return [choice, &console] { return runBake(*choice, console); };
+}
+
+}  // namespace
+
+extern const Verb kBakeVerb;
+const Verb kBakeVerb = {
+    "bake", "precomputes how a scene shadows and lights itself, for --technique prt",
+    "gloam bake bunny.obj --ground -o bunny.glb | with a floor, two bounces, order 5\n"
+    "gloam bake builtin:cornell --bounces 6 --order 4 --half -o cornell.glb | more bounces, a smaller file\n"
+    "gloam bake statue.glb --estimate | how much memory and how large a file\n"
+    "gloam bake statue.glb -o statue_prt.glb | after Ctrl-C the same command goes on where it stopped\n",
+    declareBake};
+
+}  // namespace gloam::cli

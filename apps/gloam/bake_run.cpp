@@ -1,0 +1,98 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "bake_run.h"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "scene_hash.h"
+#include "technique_choice.h"
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where bakes are kept; nothing where there is no home or it cannot be written.
+std::optional<fs::path> cacheFolder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (cache != nullptr && fs::path(cache).is_absolute()) {
+    folder = cache;
+  } else if (home != nullptr && *home != '\0') {
+    folder = fs::path(home) / ".cache";
+  } else {
+    return std::nullopt;
+  }
+  folder = folder / "gloam" / "bakes";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return std::nullopt;
+  return folder;
+}
+
+/// A bake that was kept, or nothing; a file that cannot be read (an older gloam, a full disk then) is as good as none.
+std::optional<Scene> readKept(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  try {
+    Scene kept = loadScene(file.string());
+    if (carriesTransfer(kept)) return kept;
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string estimateText(const BakeEstimate& estimate, const BakeOptions& options) {
+  const auto rays = double(estimate.vertices) * double(options.directions);
+  return fmt::format("{} vertices, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
+                     countText(estimate.vertices), countText(estimate.triangles), rays,
+                     bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
+}
+
+Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s, bool use_cache,
+                     Console& console) {
+  BakeOptions options;
+  options.time_s = time_s;
+  const BakeEstimate estimate = estimateBake(scene, options);
+  const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
+  fs::path file;
+  if (folder) {
+    const std::string key = bakeKey(scene, options);
+    file = *folder / (key + ".glb");
+    if (std::optional<Scene> kept = readKept(file)) {
+      kept->name = scene.name;
+      kept->environment = scene.environment;
+      console.remark(fmt::format("{}: transfer taken from {}", place, file.string()));
+      return *std::move(kept);
+    }
+    options.checkpoint = *folder / (key + ".checkpoint");
+  }
+  console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate, options)));
+  console.release();
+  Scene baked;
+  try {
+    baked = bakeTransfer(scene, options, console.progress());
+  } catch (const Interrupted&) {
+    throw Interrupted(folder ? "interrupted while baking; the same command goes on from here"
+                             : "interrupted while baking");
+  }
+  console.endProgress();
+  baked.environment = scene.environment;
+  if (folder) {
+    try {
+      writeGlb(baked, file);
+      console.remark(fmt::format("bake kept as {} (--no-cache keeps none)", file.string()));
+    } catch (const Error& error) {
+      console.remark(fmt::format("the bake is not kept: {}", error.what()));
+    }
+  }
+  return baked;
+}
+
+}  // namespace gloam::cli

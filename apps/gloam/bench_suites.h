@@ -1,0 +1,19 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "console.h"
+
+namespace gloam::cli {
+
+/// Measurements of parts that are no technique.
+struct BenchSuite {
+  const char* name;
+  const char* summary;
+  int (*run)(Console& console);
+};
+std::span<const BenchSuite> benchSuites();
+
+}  // namespace gloam::cli

@@ -1,0 +1,58 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// How the command line talks: results on standard output; remarks, progress and errors on standard error.
+#pragma once
+
+#include <gloam/scene.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace gloam::cli {
+
+class Console {
+ public:
+  bool quiet = false;  ///< no remarks, no progress
+  bool json = false;   ///< the result is one JSON value on standard output, nothing else there
+
+  /// One line on standard error that a user may want to know ("no light: sky:mild"). Held back until release(), so that
+  /// bad input is answered by its error alone.
+  void remark(const std::string& line);
+  /// Called when the input has proved good: shows what was held back, and from then on remarks at once.
+  void release();
+  /// All that a reader mended or left out, each with the file's name before it.
+  void remarks(const std::string& place, const Warnings& warnings);
+  /// A line of the result; standard output.
+  void print(const std::string& line);
+
+  /// Work that reports here: a bar on a terminal, a plain line every ten seconds in a log.
+  Progress progress();
+  /// Takes the bar off the screen.
+  void endProgress();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void update(double fraction, const std::string& what);
+
+  bool bar_shown_ = false, released_ = false;
+  std::vector<std::string> held_;
+  Clock::time_point started_{}, shown_{};
+  double first_fraction_ = 0.0, last_fraction_ = 2.0;
+};
+
+/// Ctrl-C and a polite kill ask the work to stop after what it is doing; a second one ends the program at once.
+void catchInterrupts();
+bool interrupted();
+
+/// Without line breaks and control characters: names from files may hold any.
+std::string singleLine(std::string text);
+/// "1 h 12 min", "3 min 20 s", "12 s", "0.4 s".
+std::string durationText(double seconds);
+/// "1.2 GiB", "34 MiB", "512 bytes".
+std::string bytesText(double bytes);
+/// "69,666".
+std::string countText(std::size_t count);
+
+}  // namespace gloam::cli

@@ -1,0 +1,201 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// gloam render: a scene, light, a technique; a picture, frames or a video.
+#include <fmt/core.h>
+#include <gloam/renderer.h>
+#include <image/tonemap.h>
+
+#include "arguments.h"
+#include "bake_run.h"
+#include "frame_plan.h"
+#include "output.h"
+#include "scene_inputs.h"
+#include "settings_file.h"
+#include "show.h"
+#include "technique_choice.h"
+#include "timings.h"
+#include "verb.h"
+
+namespace gloam::cli {
+namespace {
+
+struct RenderChoice {
+  SceneChoice scene;
+  LightChoice light;
+  ViewChoice view;
+  MotionChoice motion;
+  TechniqueChoice technique;
+  DisplayOptions display;
+  std::string output, device, layer, tone_map = "aces";
+  bool background = true, use_cache = true;
+};
+
+std::string defaultOutput(const RenderChoice& choice) {
+  return sceneStem(choice.scene.name) + (choice.motion.moves() ? ".mp4" : ".png");
+}
+
+/// All that a frame needs, apart from what moves.
+struct Stage {
+  Scene scene;
+  const TechniqueInfo* technique = nullptr;
+  Environment environment;
+  PosedCamera camera;
+  RenderOptions options;
+};
+
+Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& console) {
+  Stage stage;
+  stage.scene = loadSceneToDraw(choice.scene, console);
+  stage.technique = &chooseTechnique(choice.technique, stage.scene);
+  stage.options.settings = settingsFor(*stage.technique, choice.technique);
+  stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.camera = chooseCamera(pose(stage.scene, first_time_s), choice.view, console);
+  if (choice.motion.animate && stage.scene.animations.empty()) {
+    console.remark("--animate: the scene holds no animation");
+  }
+  for (const auto& [name, values] : choice.technique.values) {
+    if (name != stage.technique->name) {
+      console.remark(fmt::format("options of {} have no effect on {}", name, stage.technique->name));
+    }
+  }
+  if (stage.technique->needs_bake && !carriesTransfer(stage.scene)) {
+    stage.scene = bakeForDrawing(stage.scene, choice.scene.name, first_time_s, choice.use_cache, console);
+  }
+  stage.options.width = choice.view.size.x;
+  stage.options.height = choice.view.size.y;
+  stage.options.supersample = choice.view.supersample;
+  stage.options.technique = stage.technique->name;
+  stage.options.background = choice.background;
+  return stage;
+}
+
+// Automatic exposure is found on the first frame and held, so that a video does not pulse.
+void holdExposure(DisplayOptions& display, const LayeredImage& frame) {
+  if (!display.auto_exposure) return;
+  display.exposure_stops += autoExposureStops(meanLog2Luminance(lightOf(frame, "")));
+  display.auto_exposure = false;
+}
+
+void printResult(const RenderChoice& choice, const Stage& stage, const Renderer& renderer,
+                 const Timings& timings, const DisplayOptions& display,
+                 const std::vector<std::filesystem::path>& files, Console& console) {
+  if (!console.json) {
+    const std::string more = files.size() > 1 ? fmt::format(" to {}", files.back().filename().string()) : "";
+    console.remark(fmt::format("wrote {}{} ({}, {}, {} a frame)", files.front().string(), more,
+                               stage.technique->name, renderer.device().name,
+                               durationText(timings.medianFrameMs() / 1000.0)));
+    return;
+  }
+  Json settings = Json::object(), outputs = Json::array();
+  for (const auto& [name, value] : stage.options.settings.list()) settings[name] = value;
+  for (const auto& file : files) outputs.push_back(file.string());
+  console.print(jsonText({{"scene", choice.scene.name},
+                          {"environment", stage.environment.name},
+                          {"technique", stage.technique->name},
+                          {"settings", settings},
+                          {"device", renderer.device().name},
+                          {"size", fmt::format("{}x{}", choice.view.size.x, choice.view.size.y)},
+                          {"exposure_stops", display.exposure_stops},
+                          {"outputs", outputs},
+                          {"passes", timings.passesJson()},
+                          {"frame_ms", timings.medianFrameMs()},
+                          {"memory_bytes", timings.memoryBytes()}}));
+}
+
+int runRender(RenderChoice choice, Console& console) {
+  if (choice.output.empty()) choice.output = defaultOutput(choice);
+  choice.display.tone_map = choice.tone_map == "none" ? ToneMap::kNone : ToneMap::kAces;
+  refuseOverwriting(choice.output, choice.scene.name);
+  refuseOverwriting(choice.output, choice.light.environment);
+  const std::vector<PlannedFrame> frames = planFrames(choice.motion, choice.view.time_s);
+  const auto output = openOutput({choice.output, frames.size(), choice.view.size.x, choice.view.size.y,
+                                  choice.motion.frames_per_second, choice.layer});
+  Renderer renderer(choice.device);
+  Stage stage = prepareStage(choice, frames.front().time_s, console);
+  stage.options.timings = console.json;
+  renderer.setScene(stage.scene);
+  renderer.setEnvironment(stage.environment);
+
+  DisplayOptions display = choice.display;
+  Timings timings;
+  const Progress progress = console.progress();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (interrupted()) {
+      output->finish();
+      throw Interrupted(fmt::format("interrupted; {} of {} frames are written", i, frames.size()));
+    }
+    progress.report(double(i) / double(frames.size()), fmt::format("frame {} of {}", i + 1, frames.size()));
+    const PosedScene posed = pose(stage.scene, frames[i].time_s);
+    const PosedCamera camera = orbit(stage.camera, posed, frames[i].orbit_rad);
+    const auto started = std::chrono::steady_clock::now();
+    const RenderedFrame frame = renderer.render(posed, camera, stage.options);
+    timings.add(
+        frame, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count());
+    holdExposure(display, frame.layers);
+    output->write(frame.layers, display);
+    console.release();
+  }
+  printResult(choice, stage, renderer, timings, display, output->finish(), console);
+  return kDone;
+}
+
+void addDisplayOptions(CLI::App& app, RenderChoice& choice) {
+  const auto setExposure = [&choice](const std::string& text) {
+    choice.display.auto_exposure = text == "auto";
+    choice.display.exposure_stops =
+        text == "auto" ? 0.0f : float(parseNumber("--exposure", text, {-50.0, 50.0}));
+  };
+  app.add_option_function<std::string>("--exposure", setExposure,
+                                       "stops (factor 2^STOPS), or found in the first frame")
+      ->type_name("STOPS|auto")
+      ->default_str("0")
+      ->group("Output");
+  addChoice(app, "--tone-map", choice.tone_map, {"none", "aces"},
+            "curve for PNG and video; EXR and HDR stay linear")
+      ->default_str("aces")
+      ->group("Output");
+  app.add_flag("--background,!--no-background", choice.background,
+               "draw the light behind the scene, or leave it clear [on]")
+      ->group("Output");
+  addChoice(app, "--show", choice.layer, shownLayers(), "one layer of the frame instead of its light")
+      ->group("Output");
+}
+
+std::function<int()> declareRender(CLI::App& app, Console& console) {
+  const auto choice = std::make_shared<RenderChoice>();
+  addSceneOptions(app, choice->scene);
+  addText(app, "-o,--output", choice->output, "FILE|FOLDER",
+          "x.png, x.exr, x.hdr, x.mp4, x_####.png, or a folder of frames; by default the scene's name")
+      ->group("Output");
+  addTechniqueOptions(app, choice->technique);
+  addDeviceOption(app, choice->device);
+  addLightOptions(app, choice->light);
+  addViewOptions(app, choice->view);
+  addMotionOptions(app, choice->motion);
+  addDisplayOptions(app, *choice);
+  app.add_flag("--no-cache{false}", choice->use_cache,
+               "neither take nor keep the bake of a scene that has none");
+  addConsoleOptions(app, console, true);
+  addSettingsFile(app);
+  return [choice, &console] { return runRender(*choice, console); };
+}
+
+}  // namespace
+
+extern const Verb kRenderVerb;
+const Verb kRenderVerb = {
+    "render", "draws a scene and writes a picture, a folder of frames or a video",
+    "gloam render builtin:cornell -o cornell.png | a built-in scene, with the defaults of everything\n"
+    "gloam render model.glb --env probe.exr --exposure auto --supersample 2 -o model.png | a model under a "
+    "light probe\n"
+    "gloam render bunny.obj --ground --technique prt --env sky:sun -o bunny.png | soft shadows; bakes first, "
+    "and keeps the bake\n"
+    "gloam render model.glb --eye 2,1,3 --target 0,0.5,0 --fov 35 -o model.exr | another camera; linear "
+    "light, all layers\n"
+    "gloam render model.glb --orbit 48 --size 640x360 -o turn.mp4 | a turntable\n"
+    "gloam render walk.glb --animate 0:4 --fps 30 -o frames | an animation as frames/frame_0000.png and so "
+    "on\n",
+    declareRender};
+
+}  // namespace gloam::cli

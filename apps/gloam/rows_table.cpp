@@ -1,0 +1,185 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "rows.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr Row::Works kYes = Row::Works::kYes;
+constexpr Row::Works kPartly = Row::Works::kPartly;
+
+constexpr Row kSphericalHarmonics[] = {
+    {"SH-1",
+     "Real, orthonormal basis functions of 1 to 6 bands as polynomials in x, y, z; SIMD, scalar and shader "
+     "forms of one table of constants",
+     kYes, "", "gloam bench sh", "math: basis"},
+    {"SH-2",
+     "Projection of environment maps and cube maps (texel solid angles sum to 4 pi), of functions, and of "
+     "analytic lights: direction, disc, constant, gradient and daylight sky",
+     kYes, "", "gloam render builtin:spheres --env sky:mild", "math: projection"},
+    {"SH-3",
+     "Rotation by any 3x3 rotation, band by band, equal to projecting the rotated function, exact near the "
+     "identity too",
+     kYes, "", "gloam bench sh", "math: rotation"},
+    {"SH-4", "Turning a zonal function to another axis by one product a coefficient", kYes, "",
+     "gloam bench sh", "math: zonal"},
+    {"SH-5", "Convolution with a zonal kernel; the clamped cosine turns light into irradiance", kYes, "",
+     "gloam render builtin:furnace --technique irradiance", "math: convolution"},
+    {"SH-6",
+     "Product of two functions of any orders up to 6 by exact, sparse triple-product coefficients; square "
+     "and product matrix",
+     kYes, "", "gloam bench sh", "math: product"},
+    {"SH-7",
+     "Logarithm of a function through its product matrix, with clamped eigenvalues; tabulated for zonal "
+     "visibility"},
+    {"SH-8",
+     "Exponential of a function: series, optimal linear, and the hybrid of scaling and squaring, each with "
+     "its error"},
+    {"SH-9", "Windows against ringing: Hann, Lanczos, and the least that keeps a function non-negative", kYes,
+     "", "gloam render builtin:spheres --env sky:sun", "math: windowing"},
+};
+
+constexpr Row kPrecomputedTransfer[] = {
+    {"PRT-1",
+     "Diffuse transfer vectors a vertex: unshadowed, shadowed, and interreflected over any number of "
+     "bounces; shadowed and bounced parts stored apart",
+     kYes, "", "gloam bake builtin:cornell -o cornell.glb", "prt: bowl and furnace"},
+    {"PRT-2",
+     "Glossy transfer matrices, square or 9 to 25, with a Phong-like kernel whose exponent is chosen at run "
+     "time"},
+    {"PRT-3",
+     "The simulator: quasi-random directions, culling below the horizon, later passes only along blocked "
+     "directions, all cores, same bits for any number of threads, progress, resume",
+     kPartly, "caustics from specular reflectors; per-texel transfer",
+     "gloam bake builtin:cornell --directions 10000 -o cornell.glb", "prt: bake; cli: resume"},
+    {"PRT-4",
+     "Relighting: light turned into the object's frame, one dot product a vertex; light and object turn "
+     "every frame with nothing baked again",
+     kYes, "", "gloam render cornell.glb --technique prt --orbit 24 -o turn.mp4", "prt: relight"},
+    {"PRT-5",
+     "Local light: radiance that arrives at sampled points near the object each frame, blended over the "
+     "vertices"},
+    {"PRT-6",
+     "Neighbourhood transfer: a grid of matrices round an object casts its soft shadow on whatever passes "
+     "through"},
+    {"PRT-7", "Volumes: transfer in a density grid, single and multiple scattering"},
+    {"PRT-8", "Materials may vary a point, and change at run time where nothing is interreflected"},
+    {"PRT-9",
+     "The baked file is a valid .glb; transfer rides in an extension whose data are ordinary accessors, as "
+     "floats or halfs",
+     kPartly, "clustered PCA", "gloam bake builtin:cornell --half -o cornell.glb",
+     "scene: transfer extension"},
+};
+
+constexpr Row kSphereSets[] = {
+    {"SS-1", "A closed mesh bounded by k spheres with little volume outside it; every surface point covered"},
+    {"SS-2", "Sphere sets that follow skins and animation; open meshes get an answer too"},
+    {"SS-3",
+     "A hierarchy of spheres, cut for each cluster of receivers, blended so that shading stays continuous"},
+};
+
+constexpr Row kProxies[] = {
+    {"PX-1",
+     "Log visibility of a sphere by its angular size, turned to its direction and summed over all proxies"},
+    {"PX-2", "Shadowed direct light: visibility times light convolved with the clamped cosine"},
+    {"PX-3", "Indirect light of a proxy sampled at one point, weighted by the visibility of its cone"},
+    {"PX-4", "Indirect light of a proxy averaged over the disc that it shows, in closed form"},
+    {"PX-5", "Indirect light of a proxy by the exact operator, tabulated by angular size"},
+    {"PX-6", "Overlapping proxies normalised by the visibility that they block together"},
+    {"PX-7",
+     "Only receivers inside a proxy's sphere of influence are touched; the picture is that of the full sum"},
+    {"PX-8", "Upsampling that respects depth and normals; pixels that no coarse sample fits are shaded anew"},
+    {"PX-9",
+     "Each proxy with its own albedo; moving and skinned casters; ground and walls that only receive"},
+    {"PX-10", "Beyond: receivers placed where the picture needs them"},
+    {"PX-11", "Beyond: light that reaches a proxy is itself shadowed"},
+    {"PX-12", "Beyond: several bounces"},
+    {"PX-13", "Beyond: glossy receivers"},
+};
+
+constexpr Row kSphericalLights[] = {
+    {"SL-1", "Surface samples of an object seen from its spheres, each in the segment nearest to its sphere"},
+    {"SL-2", "Albedo of each segment, textures included, as spherical harmonics about its sphere"},
+    {"SL-3",
+     "First pass: light at the surface samples, shadowed by all spheres, becomes each sphere's emission"},
+    {"SL-4",
+     "Second pass: the average radiance that a sphere sends towards a receiver, by a tabulated zonal kernel"},
+    {"SL-5", "Second pass: what of a sphere is seen past those nearer, as a difference of exponentials"},
+    {"SL-6",
+     "Blocking sorted by sphere or by object; spheres of one object that intersect do not block each other"},
+    {"SL-7", "Motion: moved, scaled, turned, bent, jointed; nothing is baked again"},
+    {"SL-8", "Hierarchy with reflection ratios at the centre of each cluster of receivers"},
+    {"SL-9", "Local lights as spheres with an emission of their own"},
+    {"SL-10", "Receivers a pixel at reduced resolution, or a vertex"},
+    {"SL-11", "Beyond: several bounces"},
+    {"SL-12", "Beyond: a glossy last bounce"},
+    {"SL-13", "Beyond: intersecting spheres handled at run time"},
+    {"SL-14", "Beyond: splatted in image space; blocking by sphere without quadratic cost"},
+    {"SL-15", "Beyond: articulated deformation with surfaces sampled anew"},
+};
+
+constexpr Row kRadianceFilter[] = {
+    {"RF-1",
+     "Virtual point lights by quasi-random walks from every light, in independent sets, made anew each "
+     "frame"},
+    {"RF-2", "Interleaved sampling: neighbouring pixels use different sets, visibility by rays"},
+    {"RF-3", "Each pixel keeps the radiance that arrives, in three bands, free of its own normal"},
+    {"RF-4",
+     "A filter over exactly one block of sets that stops at edges of depth and object and crosses normals"},
+    {"RF-5", "Shading after the filter: Lambert and Phong lobes projected in closed form"},
+    {"RF-6", "Normal maps stay crisp under the filter; the classical irradiance filter stays for comparison"},
+    {"RF-7", "Beyond: virtual lights chosen by what the camera sees"},
+    {"RF-8", "Beyond: reuse over time without ghosts"},
+    {"RF-9", "Beyond: the energy that a distance bound takes is given back"},
+};
+
+constexpr Row kSplatting[] = {
+    {"MS-1",
+     "Reflective shadow maps of spot, directional and point lights: position, normal, reflected flux"},
+    {"MS-2",
+     "Virtual point lights from the map on a grid with each cell's flux, quasi-random, or by importance"},
+    {"MS-3", "Mipmaps of the least and greatest depth and normal components"},
+    {"MS-4", "Splats refined where depth or normals vary, from coarse to a given finest level"},
+    {"MS-5", "Light of a splat: the sum over virtual lights, bounded near them; albedo after upsampling"},
+    {"MS-6",
+     "Upsampling over several levels that keeps constants, stays within its sources and invents nothing"},
+    {"MS-7", "Fine detail put back by the angle to the eye"},
+    {"MS-8", "Beyond: indirect light is shadowed"},
+    {"MS-9", "Beyond: each splat takes its own set of virtual lights"},
+    {"MS-10", "Beyond: refinement until it converges"},
+    {"MS-11", "Beyond: environment light as a source of virtual lights"},
+};
+
+constexpr Row kReference[] = {
+    {"REF-1",
+     "A path tracer for the same scene, lights and materials: any number of bounces, direct and indirect "
+     "apart, unbiased"},
+    {"REF-2", "Measures of error: RMSE, relative squared error, PSNR, SSIM, FLIP; difference pictures"},
+    {"REF-3", "A comparison of techniques against the reference, as a table and one page"},
+};
+
+constexpr Row kOneFrame[] = {
+    {"ONE-1", "Techniques compose in one frame; no light counted twice, none lost"},
+    {"ONE-2", "A technique chosen by the scene, with the reason"},
+    {"ONE-3", "An engine hands in its own device and G-buffer and gets indirect light back"},
+};
+
+constexpr RowGroup kGroups[] = {
+    {"SH", "Spherical harmonics", "shared by all five papers", kSphericalHarmonics},
+    {"PRT", "Precomputed radiance transfer", "Sloan, Kautz, Snyder 2002", kPrecomputedTransfer},
+    {"SS", "Sphere sets", "Wang et al. 2006; Ren et al. 2006", kSphereSets},
+    {"PX", "Proxies in image space", "Sloan, Govindaraju, Nowrouzezahrai, Snyder 2007", kProxies},
+    {"SL", "Spherical lights", "Guerrero, Jeschke, Wimmer 2008", kSphericalLights},
+    {"RF", "Radiance filtering", "Segovia, Wald 2008", kRadianceFilter},
+    {"MS", "Multiresolution splatting", "Nichols, Wyman 2009", kSplatting},
+    {"REF", "Ground truth and error", "the judge of all", kReference},
+    {"ONE", "One frame", "beyond all five", kOneFrame},
+};
+
+}  // namespace
+
+std::span<const RowGroup> rowGroups() {
+  return kGroups;
+}
+
+}  // namespace gloam::cli

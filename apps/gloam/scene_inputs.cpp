@@ -1,0 +1,174 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "scene_inputs.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace gloam::cli {
+namespace {
+
+constexpr const char* kDefaultSky = "sky:mild";
+constexpr float kDefaultFovDeg = 45.0f;
+
+std::string cameraNames(const PosedScene& posed) {
+  if (posed.cameras.empty()) return "the scene has none";
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < posed.cameras.size(); ++i) {
+    const std::string& name = posed.cameras[i].camera.name;
+    names.push_back(name.empty() ? std::to_string(i) : fmt::format("{} ({})", i, name));
+  }
+  return "expected " + listed(names);
+}
+
+// A name wins over an index: a camera may be called "2".
+PosedCamera findCamera(const PosedScene& posed, const std::string& wanted) {
+  for (const PosedCamera& camera : posed.cameras) {
+    if (camera.camera.name == wanted) return camera;
+  }
+  std::size_t index = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto [stopped, problem] = std::from_chars(wanted.data(), end, index);
+  if (problem != std::errc{} || stopped != end || index >= posed.cameras.size()) {
+    throw Error("--camera", fmt::format("no camera '{}': {}", wanted, cameraNames(posed)));
+  }
+  return posed.cameras[index];
+}
+
+PosedCamera cameraAt(const glm::vec3& eye, const glm::vec3& target) {
+  const glm::vec3 forward = target - eye;
+  if (glm::dot(forward, forward) < 1e-12f) throw Error("--eye", "is where --target is");
+  const bool vertical = std::abs(glm::normalize(forward).y) > 0.9999f;
+  const glm::vec3 up = vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
+  PosedCamera posed;
+  posed.camera.vertical_fov_rad = glm::radians(kDefaultFovDeg);
+  posed.world_from_view = glm::inverse(glm::lookAt(eye, target, up));
+  return posed;
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& app, SceneChoice& choice) {
+  CLI::Option* scene = addText(app, "SCENE", choice.name, "SCENE",
+                               "a .glb, .gltf, .obj, .ply, .off, .fbx or .3ds file, or builtin:NAME");
+  if (choice.name.empty()) {
+    scene->required();
+  } else {
+    scene->default_str(choice.name);
+  }
+  app.add_flag("--ground", choice.ground, "puts a round floor under the scene");
+}
+
+void addLightOptions(CLI::App& app, LightChoice& choice) {
+  addText(app, "--env", choice.environment, "LIGHT",
+          "light from far away: an equirectangular .exr or .hdr, a sky by name (sky:mild), or none")
+      ->group("Light");
+  addNumber(app, "--env-rotation", choice.rotation_deg, {-36000.0, 36000.0}, "DEGREES",
+            "turns that light about the vertical axis, counter-clockwise seen from above")
+      ->group("Light");
+  addNumber(app, "--env-intensity", choice.intensity, {0.0, 1e6}, "FACTOR", "multiplies that light")
+      ->group("Light");
+}
+
+void addViewOptions(CLI::App& app, ViewChoice& choice) {
+  const auto setSize = [&choice](const std::string& text) {
+    choice.size = parseSize("--size", text, kMaxSize);
+  };
+  app.add_option_function<std::string>("--size", setSize, "pixels; one number for a square")
+      ->type_name("WxH")
+      ->default_str("1024x1024")
+      ->group("View");
+  addInteger(app, "--supersample", choice.supersample, {1, 4}, "N",
+             "antialiasing: N times the size each way, averaged")
+      ->default_str("1")
+      ->group("View");
+  addText(app, "--camera", choice.camera, "NAME|INDEX", "a camera of the scene; its first by default")
+      ->group("View");
+  const auto addPoint = [&app](const char* name, std::optional<glm::vec3>& point, const char* help) {
+    const auto set = [&point, name](const std::string& text) { point = parseVector(name, text); };
+    app.add_option_function<std::string>(name, set, help)->type_name("X,Y,Z")->group("View");
+  };
+  addPoint("--eye", choice.eye, "a camera here, in metres");
+  addPoint("--target", choice.target, "that looks at this point; the middle of the scene by default");
+  const auto setFov = [&choice](const std::string& text) {
+    choice.fov_deg = float(parseNumber("--fov", text, {1.0, 170.0}));
+  };
+  app.add_option_function<std::string>("--fov", setFov, "vertical field of view")
+      ->type_name("DEGREES")
+      ->group("View");
+  addNumber(app, "--time", choice.time_s, {0.0, 1e6}, "SECONDS", "instant of the animation")
+      ->default_str("0")
+      ->group("View");
+}
+
+void addDeviceOption(CLI::App& app, std::string& device) {
+  addText(app, "--device", device, "NAME|INDEX", "as `gloam list --devices` shows them; the best by default");
+}
+
+Scene loadSceneToDraw(const SceneChoice& choice, Console& console) {
+  Scene scene = loadScene(choice.name, console.progress());
+  console.endProgress();
+  const bool any = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return !mesh.indices.empty(); });
+  if (!any) throw Error(choice.name, "holds no triangles: nothing to draw");
+  if (choice.ground) {
+    const bool baked =
+        std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.transfer != nullptr; });
+    if (baked)
+      throw Error("--ground",
+                  fmt::format("{} is baked without it; give --ground to gloam bake", choice.name));
+    addGround(scene);
+  }
+  console.remarks(choice.name, scene.warnings);
+  return scene;
+}
+
+Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console) {
+  Environment environment;
+  if (choice.environment.empty()) {
+    environment = scene.environment;
+    if (environment.empty() && scene.lights.empty()) {
+      environment = loadEnvironment(kDefaultSky);
+      console.remark(fmt::format("no light in the scene and no --env: lit by {}", kDefaultSky));
+    }
+  } else if (choice.environment != "none") {
+    environment = loadEnvironment(choice.environment);
+    console.remarks(choice.environment, environment.warnings);
+  }
+  environment.rotation_rad += glm::radians(choice.rotation_deg);
+  environment.intensity *= choice.intensity;
+  return environment;
+}
+
+PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Console& console) {
+  if (choice.target && !choice.eye) throw Error("--target", "needs --eye");
+  if (choice.eye && !choice.camera.empty()) throw Error("--eye", "and --camera exclude each other");
+  PosedCamera camera;
+  if (choice.eye) {
+    camera = cameraAt(*choice.eye, choice.target.value_or((posed.bounds_min + posed.bounds_max) * 0.5f));
+  } else if (!choice.camera.empty()) {
+    camera = findCamera(posed, choice.camera);
+  } else if (!posed.cameras.empty()) {
+    camera = posed.cameras.front();
+  } else {
+    camera = framingCamera(posed, choice.aspect());
+    console.remark("no camera in the scene: one that shows all of it (--eye, --target and --fov choose)");
+  }
+  if (choice.fov_deg) {
+    if (!camera.camera.perspective) throw Error("--fov", "the camera is orthographic");
+    camera.camera.vertical_fov_rad = glm::radians(*choice.fov_deg);
+  }
+  return camera;
+}
+
+std::string sceneStem(const std::string& name) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (name.starts_with(kBuiltin)) {  // "builtin:spheres?detail=2"
+    return name.substr(kBuiltin.size(), name.find('?') - kBuiltin.size());
+  }
+  const std::string stem = std::filesystem::path(name).stem().string();
+  return stem.empty() ? "scene" : stem;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,67 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "technique_choice.h"
+
+#include <fmt/core.h>
+
+namespace gloam::cli {
+namespace {
+
+std::string kindText(const Option& option) {
+  if (!option.choices.empty()) {
+    std::vector<std::string> choices(option.choices.begin(), option.choices.end());
+    return CLI::detail::join(choices, "|");
+  }
+  if (std::holds_alternative<bool>(option.default_value)) return "true|false";
+  return fmt::format("{}..{}", option.minimum, option.maximum);
+}
+
+void addTechniqueOption(CLI::App& app, TechniqueChoice& choice, const TechniqueInfo& info,
+                        const Option& option) {
+  const std::string flag = fmt::format("--{}.{}", info.name, option.name);
+  const auto set = [&choice, &info, name = std::string(option.name)](const std::string& text) {
+    Settings settings(info.options);
+    settings.set(name, text);  // throws where the value is wrong
+    choice.values[info.name][name] = text;
+  };
+  app.add_option_function<std::string>(flag, set, option.help)
+      ->type_name(kindText(option))
+      ->default_str(
+          std::visit([](const auto& held) { return fmt::format("{}", held); }, option.default_value))
+      ->group(fmt::format("Technique {}", info.name));
+}
+
+}  // namespace
+
+void addTechniqueOptions(CLI::App& app, TechniqueChoice& choice) {
+  const auto setName = [&choice](const std::string& text) { choice.name = technique(text).name; };
+  std::vector<std::string> names;
+  for (const TechniqueInfo& info : techniques()) names.emplace_back(info.name);
+  app.add_option_function<std::string>(
+         "--technique", setName,
+         fmt::format("way of lighting: {}; by default prt where the scene carries transfer, else irradiance",
+                     listed(names)))
+      ->type_name("TECHNIQUE");
+  for (const TechniqueInfo& info : techniques()) {
+    for (const Option& option : info.options) addTechniqueOption(app, choice, info, option);
+  }
+}
+
+const TechniqueInfo& chooseTechnique(const TechniqueChoice& choice, const Scene& scene) {
+  if (!choice.name.empty()) return technique(choice.name);
+  return technique(carriesTransfer(scene) ? "prt" : "irradiance");
+}
+
+Settings settingsFor(const TechniqueInfo& info, const TechniqueChoice& choice) {
+  Settings settings(info.options);
+  const auto given = choice.values.find(info.name);
+  if (given == choice.values.end()) return settings;
+  for (const auto& [name, text] : given->second) settings.set(name, text);
+  return settings;
+}
+
+bool carriesTransfer(const Scene& scene) {
+  return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.transfer != nullptr; });
+}
+
+}  // namespace gloam::cli

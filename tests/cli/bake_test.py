@@ -1,0 +1,141 @@
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""gloam bake, and what render does with a bake or without one."""
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import GLOAM, SMALL, CliTest, spinning_triangle
+
+QUICK = ["--directions", "256", "--bounce-directions", "256", "--order", "3"]
+SCENE = "builtin:cornell?detail=0.25"
+
+
+class Bake(CliTest):
+    def test_baked_file_says_what_it_holds_and_renders_by_prt(self):
+        result = self.succeed_json("bake", SCENE, *QUICK, "--bounces", "2", "-o", "a.glb")
+        self.assertEqual((result["order"], result["bounces"], result["directions"]), (3, 2, 256))
+        transfer = self.succeed_json("info", "a.glb")["transfer"]
+        self.assertEqual((transfer["order"], transfer["bounces"], transfer["directions"]), (3, 2, 256))
+        self.assertEqual(transfer["vertices"], result["vertices"])
+        rendered = self.succeed_json("render", "a.glb", *SMALL, "-o", "a.exr")
+        self.assertEqual(rendered["technique"], "prt")
+        self.assertGreater(self.means("a.exr", "indirect")["R"], 0)
+        self.assertFalse(self.path("a.glb.checkpoint").exists())
+
+    def test_kinds(self):
+        light = []
+        for kind in "du", "ds", "di":
+            self.succeed("bake", SCENE, *QUICK, "--kind", kind, "-o", "a.glb")
+            self.succeed("render", "a.glb", *SMALL, "--env", "sky:uniform", "-o", "a.exr")
+            light.append(self.means("a.exr"))
+        self.assertLess(light[1]["G"], light[0]["G"], "shadows darken")
+        self.assertGreater(light[2]["G"], light[1]["G"], "bounces brighten")
+
+    def test_half_floats_halve_the_transfer(self):
+        sizes = []
+        for options in [], ["--half"]:
+            self.succeed("bake", SCENE, *QUICK, *options, "-o", "a.glb")
+            sizes.append(self.path("a.glb").stat().st_size)
+        self.assertLess(sizes[1], 0.75 * sizes[0])
+
+    def test_estimate_alone_writes_nothing(self):
+        estimate = self.succeed_json("bake", SCENE, *QUICK, "--estimate")
+        self.assertEqual(estimate["rays"], estimate["vertices"] * 256)
+        self.assertGreater(estimate["memory_bytes"], 0)
+        self.assertEqual(self.listing(), [])
+        self.assertIn("vertices", self.succeed("bake", SCENE, "--estimate").out)
+
+    def test_the_estimate_is_near_the_file(self):
+        expected = self.succeed_json("bake", SCENE, *QUICK, "--estimate")["file_bytes"]
+        size = self.succeed_json("bake", SCENE, *QUICK, "-o", "a.glb")["file_bytes"]
+        self.assertTrue(0.7 < size / expected < 1.4, (size, expected))
+
+    def test_threads_do_not_change_the_bits(self):
+        for name, threads in ("a.glb", 1), ("b.glb", 2):
+            self.succeed("bake", SCENE, *QUICK, "--threads", threads, "-o", name)
+        self.assertEqual(self.path("a.glb").read_bytes(), self.path("b.glb").read_bytes())
+
+    def test_interrupted_bake_goes_on_and_gives_the_same_bits(self):
+        options = ["--directions", "4096", "--bounces", "3", "--order", "4"]
+        scene = "builtin:cornell"
+        process = subprocess.Popen([GLOAM, "bake", scene, *options, "-o", "a.glb"], cwd=self.folder, env=self.environment,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while not self.path("a.glb.checkpoint").exists() and process.poll() is None:
+            self.assertLess(time.monotonic(), deadline, "no checkpoint")
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, err)
+        self.assertIn("goes on", err.splitlines()[-1])
+        self.assertFalse(self.path("a.glb").exists())
+        resumed = self.succeed_json("bake", scene, *options, "-o", "a.glb")
+        self.assertTrue(resumed["resumed"])
+        self.assertFalse(self.path("a.glb.checkpoint").exists())
+        self.succeed("bake", scene, *options, "-o", "b.glb")
+        self.assertEqual(self.path("a.glb").read_bytes(), self.path("b.glb").read_bytes())
+
+    def test_a_terminal_gets_a_bar_with_time_left(self):
+        main, side = pty.openpty()
+        process = subprocess.Popen([GLOAM, "bake", "builtin:cornell", "--directions", "4096", "--bounces", "3", "-o", "a.glb"],
+                                   cwd=self.folder, env=self.environment, stderr=side, stdin=side)
+        os.close(side)
+        text = b""
+        try:
+            while chunk := os.read(main, 4096):
+                text += chunk
+        except OSError:  # the terminal's other side is closed: the end
+            pass
+        os.close(main)
+        self.assertEqual(process.wait(timeout=60), 0, text)
+        self.assertRegex(text.decode(), r"\r\x1b\[K[^\r]+\[#+\.*\] \d+ %, [^\r]+ left")
+
+    def test_bad_options(self):
+        for option, value in ("--order", 2), ("--order", 7), ("--order", "x"), ("--directions", 0), ("--directions", 1e6), \
+                ("--bounces", 0), ("--bounces", 65), ("--threads", -1), ("--kind", "dx"), ("--time", "nan"):
+            self.refuse("bake", SCENE, option, value, "-o", "a.glb", says=[option, value if value != 1e6 else "1000000"])
+        self.refuse("bake", SCENE, "-o", "a.png", says=".glb")
+        self.refuse("bake", SCENE, "-o", "no/a.glb", says="no/a.glb")
+
+
+class RenderUnbaked(CliTest):
+    """Slow by nature: the default bake. The scene is small."""
+
+    def test_prt_bakes_once_and_keeps_it(self):
+        self.path("a.glb").write_bytes(spinning_triangle())
+        command = ["render", "a.glb", *SMALL, "--technique", "prt"]
+        first = self.succeed(*command, "-o", "a.exr")
+        self.assertIn("baking it first", first.err)
+        second = self.succeed(*command, "-o", "b.exr")
+        self.assertIn("taken from", second.err)
+        self.assertEqual(self.path("a.exr").read_bytes(), self.path("b.exr").read_bytes())
+        self.assertEqual(len(list(self.path("cache/gloam/bakes").glob("*.glb"))), 1)
+
+    def test_another_scene_gets_a_bake_of_its_own(self):
+        for name, triangle_bytes in ("a.glb", spinning_triangle()), ("b.glb", spinning_triangle().replace(b"front", b"other")):
+            self.path(name).write_bytes(triangle_bytes)
+            self.succeed("render", name, *SMALL, "--technique", "prt", "-o", "a.png")
+        self.assertEqual(len(list(self.path("cache/gloam/bakes").glob("*.glb"))), 2)
+
+    def test_no_cache_keeps_nothing(self):
+        self.path("a.glb").write_bytes(spinning_triangle())
+        self.succeed("render", "a.glb", *SMALL, "--technique", "prt", "--no-cache", "-o", "a.png")
+        self.assertFalse(self.path("cache/gloam").exists())
+
+    def test_a_damaged_bake_is_made_again(self):
+        self.path("a.glb").write_bytes(spinning_triangle())
+        command = ["render", "a.glb", *SMALL, "--technique", "prt", "-o", "a.png"]
+        self.succeed(*command)
+        for kept in self.path("cache/gloam/bakes").glob("*.glb"):
+            kept.write_bytes(kept.read_bytes()[:100])
+        self.assertIn("baking it first", self.succeed(*command).err)
+
+
+if __name__ == "__main__":
+    unittest.main()

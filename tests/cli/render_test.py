@@ -1,0 +1,214 @@
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""gloam render and bench: pictures, frames, videos; what is asked for is what comes out."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import GLOAM, SMALL, CliTest, hdr, spinning_triangle
+
+LAYERS = {"", "direct", "indirect", "normal", "depth", "albedo", "object"}
+LIGHT = ["--env", "sky:uniform"]
+
+
+class Pictures(CliTest):
+    def test_png_of_the_right_size_that_is_not_black(self):
+        result = self.succeed_json("render", "builtin:cornell", *SMALL, "-o", "a.png")
+        self.assertEqual((result["size"], result["outputs"]), ("48x32", ["a.png"]))
+        self.assertEqual(result["technique"], "irradiance")
+        self.assertTrue(result["passes"])
+        picture = self.picture("a.png")
+        self.assertEqual(picture["size"], "48x32")
+        for channel in picture["layers"][0]["channels"][:3]:
+            self.assertTrue(0.01 < channel["mean"] < 0.99, channel)
+
+    def test_exr_holds_all_layers_and_their_sum(self):
+        self.succeed("render", "builtin:cornell", *SMALL, "-o", "a.exr")
+        layers = {layer["name"] for layer in self.picture("a.exr")["layers"]}
+        self.assertEqual(layers, LAYERS)
+        sums, direct, indirect = self.means("a.exr"), self.means("a.exr", "direct"), self.means("a.exr", "indirect")
+        for channel in "RGB":
+            self.assertGreaterEqual(sums[channel] * 1.01 + 1e-3, direct[channel] + indirect[channel])
+
+    def test_default_name(self):
+        self.succeed("render", "builtin:cornell", *SMALL)
+        self.assertEqual(self.picture("cornell.png")["size"], "48x32")
+
+    def test_same_command_same_bytes(self):
+        for name in "a.exr", "b.exr":
+            self.succeed("render", "builtin:cornell", *SMALL, "-o", name)
+        self.assertEqual(self.path("a.exr").read_bytes(), self.path("b.exr").read_bytes())
+
+    def test_intensity_scales_light(self):
+        for name, factor in ("a.exr", 1), ("b.exr", 2):
+            self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "--env-intensity", factor, "-o", name)
+        self.assertAlmostEqual(self.means("b.exr")["R"], 2 * self.means("a.exr")["R"], delta=0.01)
+
+    def test_rotation_by_a_full_turn_changes_nothing_and_half_a_turn_does(self):
+        for name, turn in ("a.exr", 0), ("b.exr", 360), ("c.exr", 180):
+            self.succeed("render", "builtin:spheres", *SMALL, "--env", "sky:sun", "--env-rotation", turn, "-o", name)
+        a, b, c = (self.means(name)["R"] for name in ("a.exr", "b.exr", "c.exr"))
+        self.assertAlmostEqual(a, b, delta=1e-3 * a)
+        self.assertGreater(abs(a - c), 1e-3 * a)
+
+    def test_probe_from_a_file(self):
+        self.path("probe.hdr").write_bytes(hdr(8, 4, (128, 0, 0, 130)))
+        self.succeed("render", "builtin:furnace", *SMALL, "--env", "probe.hdr", "-o", "a.exr")
+        means = self.means("a.exr")
+        self.assertGreater(means["R"], 1.5)
+        self.assertLess(means["G"], 0.01)
+
+    def test_without_background_alpha_is_coverage(self):
+        self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "--no-background", "-o", "a.exr")
+        self.assertTrue(0.01 < self.means("a.exr")["A"] < 0.99)
+        self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "-o", "b.exr")
+        self.assertAlmostEqual(self.means("b.exr")["A"], 1.0, places=3)
+
+    def test_exposure_and_tone_map(self):
+        means = []
+        for options in ["--exposure", "0"], ["--exposure", "-1"], ["--exposure", "auto"], ["--tone-map", "none"]:
+            self.succeed("render", "builtin:cornell", *SMALL, *options, "-o", "a.png")
+            means.append(self.means("a.png")["G"])
+        self.assertGreater(means[0], means[1])
+        self.assertEqual(len(set(means)), 4)
+
+    def test_layers_can_be_shown(self):
+        for layer in LAYERS - {""}:
+            self.succeed("render", "builtin:cornell", *SMALL, "--show", layer, "-o", "a.png")
+        self.refuse("render", "builtin:cornell", "--show", "nrmal", says=["nrmal", "normal"])
+
+    def test_remarks_and_quiet(self):
+        self.path("bare.glb").write_bytes(spinning_triangle())
+        err = self.succeed("render", "bare.glb", *SMALL, "-o", "a.png").err
+        self.assertIn("sky:mild", err)
+        self.assertIn("wrote a.png", err)
+        self.assertEqual(self.succeed("render", "bare.glb", *SMALL, "-o", "a.png", "--quiet").err, "")
+
+    def test_a_picture_is_replaced_whole(self):
+        self.path("a.png").write_bytes(b"old")
+        self.succeed("render", "builtin:cornell", *SMALL, "-o", "a.png")
+        self.assertEqual(self.picture("a.png")["size"], "48x32")
+
+
+class Cameras(CliTest):
+    def means_of(self, *options):
+        self.path("a.glb").write_bytes(spinning_triangle())
+        self.succeed("render", "a.glb", *SMALL, *LIGHT, "--no-background", *options, "-o", "a.exr")
+        return self.means("a.exr")["A"]
+
+    def test_named_numbered_placed(self):
+        first = self.means_of()
+        self.assertGreater(first, 0.01)
+        self.assertEqual(first, self.means_of("--camera", "front"))
+        self.assertEqual(first, self.means_of("--camera", "0"))
+        self.assertAlmostEqual(first, self.means_of("--eye", "0,0,4", "--target", "0,0,0", "--fov", "45.8366"), places=2)
+        self.assertGreater(self.means_of("--eye", "0,0,3", "--target", "0,0,0"), first)
+        self.assertEqual(self.means_of("--eye", "0,0,4", "--target", "0,0,9"), 0)
+        self.assertLess(self.means_of("--fov", "90"), first)
+
+    def test_wrong_ones(self):
+        self.path("a.glb").write_bytes(spinning_triangle())
+        self.refuse("render", "a.glb", "--camera", "back", says=["back", "front"])
+        self.refuse("render", "a.glb", "--camera", "7", says="7")
+        self.refuse("render", "a.glb", "--camera", "0", "--eye", "1,1,1", says="--eye")
+        self.refuse("render", "a.glb", "--target", "1,1,1", says="--eye")
+        self.refuse("render", "a.glb", "--eye", "1,1,1", "--target", "1,1,1", says="--target")
+
+
+class Motion(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.path("a.glb").write_bytes(spinning_triangle())
+
+    def test_time_moves_the_triangle(self):
+        alphas = []
+        for seconds in 0, 0.5, 1:
+            self.succeed("render", "a.glb", *SMALL, *LIGHT, "--no-background", "--time", seconds, "-o", "a.exr")
+            alphas.append(self.means("a.exr")["A"])
+        self.assertGreater(alphas[0], 0.01)
+        self.assertEqual(alphas[2], 0, "after 1 s the triangle is out of the picture")
+
+    def test_animation_to_a_folder(self):
+        result = self.succeed_json("render", "a.glb", *SMALL, *LIGHT, "--animate", "0:1", "--fps", "4", "-o", "frames")
+        names = [f"frames/frame_{i:04}.png" for i in range(4)]
+        self.assertEqual(result["outputs"], names)
+        self.assertEqual(sorted(f"frames/{p.name}" for p in self.path("frames").iterdir()), names)
+        self.assertNotEqual(self.path(names[0]).read_bytes(), self.path(names[3]).read_bytes())
+
+    def test_numbered_names(self):
+        self.succeed("render", "a.glb", *SMALL, *LIGHT, "--orbit", "2", "-o", "turn_##.exr")
+        self.assertEqual(sorted(p.name for p in self.folder.glob("turn*")), ["turn_00.exr", "turn_01.exr"])
+
+    def test_turntable_and_animation_to_video(self):
+        for name, options in ("turn.mp4", ["--orbit", "5"]), ("walk.mp4", ["--animate", "0:0.5", "--fps", "10"]):
+            self.succeed("render", "a.glb", "--size", "33x17", *LIGHT, *options, "-o", name)
+            probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                    "stream=width,height,nb_read_frames", "-of", "json", self.path(name)],
+                                   capture_output=True, text=True, check=True)
+            stream = json.loads(probe.stdout)["streams"][0]
+            self.assertEqual((stream["width"], stream["height"], stream["nb_read_frames"]), (34, 18, "5"))
+
+    def test_one_picture_cannot_hold_many_frames(self):
+        self.refuse("render", "a.glb", "--orbit", "3", "-o", "a.png", says=["a.png", "folder"])
+
+    def test_video_without_ffmpeg(self):
+        empty = dict(self.environment, PATH=str(self.folder))
+        self.refuse("render", "a.glb", *SMALL, "--orbit", "2", "-o", "a.mp4", environment=empty, says="ffmpeg")
+
+    def test_interrupt_keeps_finished_frames(self):
+        process = subprocess.Popen([GLOAM, "render", "a.glb", "--size", "64x64", *LIGHT, "--orbit", "50000", "-o", "frames"],
+                                   cwd=self.folder, env=self.environment, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while not self.path("frames/frame_0001.png").exists():
+            self.assertLess(time.monotonic(), deadline, "no second frame")
+            self.assertIsNone(process.poll())
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, err)
+        self.assertIn("interrupted", err)
+        frames = sorted(self.path("frames").iterdir())
+        self.assertEqual([p.name for p in frames], [f"frame_{i:04}.png" for i in range(len(frames))])
+        self.assertEqual(self.picture(frames[-1].relative_to(self.folder))["size"], "64x64")
+
+
+class Settings(CliTest):
+    def test_file_sets_what_the_command_line_does_not(self):
+        self.path("s.json").write_text(json.dumps({"size": "20x10", "env": "sky:uniform", "env_rotation": 90, "quiet": True}))
+        result = self.succeed_json("render", "builtin:cornell", "--settings", "s.json", "-o", "a.png")
+        self.assertEqual(result["size"], "20x10")
+        result = self.succeed_json("render", "builtin:cornell", "--size", "8x8", "--settings", "s.json", "-o", "a.png")
+        self.assertEqual(result["size"], "8x8")
+
+    def test_bad_files(self):
+        for text, says in (("{", "s.json"), ("[1]", "object"), ('{"siez": 1}', "siez"), ('{"size": "0x0"}', "--size"),
+                           ('{"size": [1]}', "size"), ('{"prt": {"no_such": 1}}', "prt.no_such"), ("[" * 100000, "s.json"),
+                           ('{"technique": "no"}', "no")):
+            self.path("s.json").write_text(text)
+            self.refuse("render", "builtin:cornell", "--settings", "s.json", says=says)
+        self.refuse("render", "builtin:cornell", "--settings", "none.json", says="none.json")
+
+
+class Bench(CliTest):
+    def test_json_and_table(self):
+        result = self.succeed_json("bench", "irradiance", "builtin:cornell", *SMALL, "--frames", "3")
+        self.assertEqual((result["scene"], result["size"], result["frames"]), ("builtin:cornell", "48x32", 3))
+        self.assertTrue(result["device"])
+        self.assertGreater(result["frame_ms"], 0)
+        self.assertGreater(result["memory_bytes"], 0)
+        for entry in result["passes"]:
+            self.assertLessEqual(entry["median_ms"], entry["p95_ms"] + 1e-9, entry)
+        out = self.succeed("bench", "irradiance", "builtin:cornell", *SMALL, "--frames", "2").out
+        for entry in result["passes"]:
+            self.assertIn(entry["name"], out)
+
+    def test_unknown_subject(self):
+        self.refuse("bench", "no-such", says=["no-such", "irradiance"])
+
+
+if __name__ == "__main__":
+    unittest.main()
