@@ -38,39 +38,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Every chunk (length, name, data, checksum) lies in the file, up to IEND.
-void walkPng(const Bytes& bytes, const std::string& place) {
-  const auto word = [&](std::size_t at) {
-    return std::uint32_t(bytes[at]) << 24 | std::uint32_t(bytes[at + 1]) << 16 |
-           std::uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
-  };
-  for (std::size_t at = 8; bytes.size() - at >= 12;) {
-    const std::uint64_t length = word(at);
-    if (length > bytes.size() - at - 12)
-      throw Error(place,
-                  fmt::format("PNG chunk of {} bytes at {} reaches past the end of the file", length, at));
-    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return;
-    at += length + 12;
-  }
-  throw Error(place, "the file ends before the PNG chunk IEND");
-}
-
-// Segments up to the first scan, then anything up to the marker that ends the picture.
-void walkJpeg(const Bytes& bytes, const std::string& place) {
-  constexpr std::uint8_t kStartOfScan = 0xda, kEnd = 0xd9;
-  std::size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != kStartOfScan) {
-    if (bytes[at + 1] == 0xff) {  // padding
-      ++at;
-      continue;
-    }
-    at += 2 + (std::size_t(bytes[at + 2]) << 8 | bytes[at + 3]);
-  }
-  for (std::size_t i = std::min(at, bytes.size()); i + 1 < bytes.size(); ++i)
-    if (bytes[i] == 0xff && bytes[i + 1] == kEnd) return;
-  throw Error(place, "the file ends before the JPEG marker EOI");
-}
-
 struct StbFree {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
@@ -97,15 +64,47 @@ void append(void* out, void* data, int size) {
 
 }  // namespace
 
+void checkPngIsWhole(std::span<const std::uint8_t> bytes, const std::string& place) {
+  const auto word = [&](std::size_t at) {
+    return std::uint32_t(bytes[at]) << 24 | std::uint32_t(bytes[at + 1]) << 16 |
+           std::uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
+  };
+  for (std::size_t at = 8; at <= bytes.size() && bytes.size() - at >= 12;) {
+    const std::uint64_t length = word(at);
+    if (length > bytes.size() - at - 12)
+      throw Error(place,
+                  fmt::format("PNG chunk of {} bytes at {} reaches past the end of the file", length, at));
+    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return;
+    at += length + 12;
+  }
+  throw Error(place, "the file ends before the PNG chunk IEND");
+}
+
+// Segments up to the first scan, then anything up to the marker that ends the picture.
+void checkJpegIsWhole(std::span<const std::uint8_t> bytes, const std::string& place) {
+  constexpr std::uint8_t kStartOfScan = 0xda, kEnd = 0xd9;
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != kStartOfScan) {
+    if (bytes[at + 1] == 0xff) {  // padding
+      ++at;
+      continue;
+    }
+    at += 2 + (std::size_t(bytes[at + 2]) << 8 | bytes[at + 3]);
+  }
+  for (std::size_t i = std::min(at, bytes.size()); i + 1 < bytes.size(); ++i)
+    if (bytes[i] == 0xff && bytes[i + 1] == kEnd) return;
+  throw Error(place, "the file ends before the JPEG marker EOI");
+}
+
 Image readPngOrJpeg(const std::filesystem::path& path) {
   const std::string place = path.string();
   const Bytes bytes = readBytes(path);
   if (bytes.size() > std::size_t(1) << 30) throw Error(place, "PNG and JPEG files are read up to 1 GiB");
   const bool png = bytes.size() >= 8 && bytes[0] == 0x89;
   if (png)
-    walkPng(bytes, place);
+    checkPngIsWhole(bytes, place);
   else
-    walkJpeg(bytes, place);
+    checkJpegIsWhole(bytes, place);
 
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
