@@ -129,6 +129,7 @@ void Walker::readAttribute(const std::string& name, const std::string& type, Cur
   } else if (name == "compression" && type == "compression") {
     part.compression = cursor.number<std::uint8_t>();
   } else if (name == "tiles" && type == "tiledesc") {
+    part.has_tiles = true;
     part.tile_width = cursor.number<std::uint32_t>();
     part.tile_height = cursor.number<std::uint32_t>();
   } else if (name == "type" && type == "string") {
@@ -189,7 +190,7 @@ void Walker::checkPart(const ExrPart& part, const std::string& place) const {
                      bytesPerByte(part.compression) / bytes_a_pixel);
   // The table of chunks has 8 bytes for each; a chunk is a tile, or 1 to 256 scanlines.
   double chunks = double(part.data.height()) / 256.0;
-  if (part.tile_width > 0 || part.tile_height > 0) {
+  if (part.has_tiles) {
     constexpr std::uint32_t kMaxTile = 1 << 13;
     if (part.tile_width < 1 || part.tile_height < 1 || part.tile_width > kMaxTile ||
         part.tile_height > kMaxTile)
@@ -221,7 +222,7 @@ std::vector<ExrPart> Walker::parts() {
     // flag.
     const bool tiled =
         part.type.empty() ? (flags & kTiledFlag) != 0 : part.type.find("tile") != std::string::npos;
-    if (tiled && part.tile_width == 0) throw Error(place_, "attribute tiles is missing");
+    if (tiled && !part.has_tiles) throw Error(place_, "attribute tiles is missing");
     checkPart(part, several ? fmt::format("{}: part {}", place_, parts.size()) : place_);
     parts.push_back(std::move(part));
     if (!several) break;

@@ -31,7 +31,8 @@ struct ExrPart {
   std::vector<ExrChannel> channels;
   ExrWindow data, display;
   int compression = -1;
-  std::uint32_t tile_width = 0, tile_height = 0;  ///< 0: scanlines
+  std::uint32_t tile_width = 0, tile_height = 0;
+  bool has_tiles = false;  ///< the attribute stands there
   bool deep = false;
 };
 

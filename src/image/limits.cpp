@@ -57,10 +57,27 @@ void checkPictureSize(const std::string& place, std::int64_t width, std::int64_t
 
 std::string oneLine(std::string text) {
   constexpr std::size_t kMaxLength = 200;
-  if (text.size() > kMaxLength) text.resize(kMaxLength);
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
+  std::string line;
+  for (std::size_t i = 0; i < text.size() && line.size() < kMaxLength;) {
+    const auto byte = [&](std::size_t at) {
+      return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u;
+    };
+    const std::size_t length = byte(i) < 0x80   ? 1
+                               : byte(i) < 0xc2 ? 0
+                               : byte(i) < 0xe0 ? 2
+                               : byte(i) < 0xf0 ? 3
+                                                : 4;
+    bool valid = length > 0 && byte(i) < 0xf5;
+    for (std::size_t k = 1; k < length; ++k) valid = valid && (byte(i + k) & 0xc0) == 0x80;
+    if (!valid || (length == 1 && (byte(i) < 0x20 || byte(i) == 0x7f))) {
+      line += valid ? ' ' : '?';
+      ++i;
+      continue;
+    }
+    line.append(text, i, length);
+    i += length;
+  }
+  return line;
 }
 
 }  // namespace gloam

@@ -24,7 +24,7 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& path);
 void checkPictureSize(const std::string& place, std::int64_t width, std::int64_t height,
                       std::uint64_t file_bytes, double pixels_per_byte);
 
-/// Any text as one line without control characters, at most 200 bytes.
+/// Bytes of a file as a text for a message: one line, no control characters, UTF-8 (others become ?), about 200 bytes.
 std::string oneLine(std::string text);
 
 }  // namespace gloam
