@@ -71,8 +71,7 @@ ShRgb truncated(const ShRgb& function, int order);
 float dot(const Sh& f, const Sh& g);
 glm::vec3 dot(const ShRgb& f, const Sh& g);
 
-// ---- SH-1: the basis
-// -----------------------------------------------------------------------------------------------
+// ---- SH-1: the basis ----
 
 /// All basis functions at a direction.
 Sh evaluate(int order, const glm::vec3& direction);
@@ -80,11 +79,10 @@ Sh evaluate(int order, const glm::vec3& direction);
 float valueAt(const Sh& function, const glm::vec3& direction);
 glm::vec3 valueAt(const ShRgb& function, const glm::vec3& direction);
 
-// ---- SH-2: projection
-// ----------------------------------------------------------------------------------------------
+// ---- SH-2: projection ----
 
-/// By quadrature with `rings` Gauss-Legendre rings of 2 rings points each: exact for polynomials of degree
-/// 2 rings - 1 - (order - 1).
+/// By quadrature with `rings` Gauss-Legendre rings of 2 rings points each: exact for polynomials of degree 2
+/// rings - 1 - (order - 1).
 Sh project(int order, const std::function<float(const glm::vec3&)>& function, int rings = 64);
 ShRgb projectRgb(int order, const std::function<glm::vec3(const glm::vec3&)>& function, int rings = 64);
 /// Light from one direction with irradiance 1 on a plane that faces it (a delta of integral 1).
@@ -107,8 +105,7 @@ float cubeSolidAngle(int column, int row, int size);              ///< of one te
 /// Direction through a point of a cube face, (u, v) in 0..1 from the face's first texel.
 glm::vec3 cubeDirection(int face, float u, float v);
 
-// ---- SH-3: rotation
-// ------------------------------------------------------------------------------------------------
+// ---- SH-3: rotation ----
 
 /// A 3x3 orthogonal matrix, proper or not, made ready for SH. D(R) = Z(alpha) J Z(beta) J Z(gamma), J the
 /// exchange of y and z: exact also near the identity.
@@ -126,8 +123,7 @@ ShRgb rotate(const Rotation& rotation, const ShRgb& function);
 Sh rotate(const glm::mat3& matrix, const Sh& function);
 ShRgb rotate(const glm::mat3& matrix, const ShRgb& function);
 
-// ---- SH-4, SH-5: zonal functions
-// -----------------------------------------------------------------------------------
+// ---- SH-4, SH-5: zonal functions ----
 
 /// The zonal function turned so that its axis is `axis`.
 Sh rotateZonal(const Zh& zonal, const glm::vec3& axis);
@@ -141,8 +137,7 @@ float clampedCosineFactor(int l);  ///< A_l = pi, 2 pi / 3, pi / 4, 0, -pi / 24,
 /// Irradiance of a light on a plane with that normal: integral of L(s) max(0, n.s) ds.
 glm::vec3 irradiance(const ShRgb& light, const glm::vec3& normal);
 
-// ---- SH-6: products
-// ------------------------------------------------------------------------------------------------
+// ---- SH-6: products ----
 
 /// Dense row-major matrix between coefficient vectors, order_out^2 rows and order_in^2 columns.
 struct ShMatrix {
@@ -165,8 +160,7 @@ Sh multiply(const ShMatrix& matrix, const Sh& function);
 float gamma(int i, int j, int k);
 int gammaNonZeros(int order);  ///< 1, 10, 83, 353, 1158, 2907
 
-// ---- SH-9: windowing
-// -----------------------------------------------------------------------------------------------
+// ---- SH-9: windowing ----
 
 /// Band factors (1 + cos(pi l / width)) / 2, 0 from l = width on; width > 0, commonly order.
 Sh windowHann(const Sh& function, float width);
@@ -186,12 +180,16 @@ struct Minimum {
 };
 Minimum minimum(const Sh& function);
 
-// ---- Batches (SIMD, chosen at run time)
-// ----------------------------------------------------------------------------
+// ---- Batches (SIMD, chosen at run time) ----
 //
 // Layout: planes. Coefficient i of item k stands at data[i * stride + k], stride >= count; spans hold at
 // least (order^2 - 1) * stride + count floats, else Error. No alignment is asked for. Output may not overlap
 // input.
+
+/// A stride for that many items at which planes start in different cache sets; powers of two are slower.
+constexpr std::size_t planeStride(std::size_t count) {
+  return (count + 15) / 16 * 16 + 16;
+}
 
 /// Basis functions of many directions, given as three arrays of the same length.
 void evaluateMany(int order, std::span<const float> x, std::span<const float> y, std::span<const float> z,

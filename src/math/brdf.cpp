@@ -27,7 +27,7 @@ float power(float cosine, float exponent) {
 float phongExponent(float roughness) {
   const float alpha = roughness * roughness;
   const float exponent = 2.0f / std::max(alpha * alpha, 1e-12f) - 2.0f;
-  return std::clamp(exponent, 1.0f, kMaxExponent);
+  return std::clamp(exponent, 1.0f, kMaxPhongExponent);
 }
 
 Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness) {
@@ -64,10 +64,9 @@ float lambertBandFactor(int l) {
 }
 
 float phongBandFactor(int l, float exponent) {
-  // The i-th factors of both products together, so that neither overflows.
-  const double n = exponent, first = l % 2 != 0 ? n + 1.0 : n;
-  double factor = 1.0;
-  for (int i = 0; i < (l + 1) / 2; ++i) factor *= (first - 2.0 * i) / (n + l + 1.0 - 2.0 * i);
+  const double n = exponent;  // band l follows from band l - 2 by (n - l + 2) / (n + l + 1)
+  double factor = l % 2 != 0 ? (n + 1.0) / (n + 2.0) : 1.0;
+  for (int i = 2 + l % 2; i <= l; i += 2) factor *= (n - i + 2.0) / (n + i + 1.0);
   return static_cast<float>(factor);
 }
 
@@ -83,12 +82,18 @@ sh::Zh phongZonal(int order, float exponent) {
   return zonal;
 }
 
+glm::vec3 shadeLambert(const sh::ShRgb& light, const glm::vec3& normal) {
+  return sh::dot(light, sh::rotateZonal(lambertZonal(light.order), normal));
+}
+
+glm::vec3 shadePhong(const sh::ShRgb& light, const glm::vec3& mirror, float exponent) {
+  return sh::dot(light, sh::rotateZonal(phongZonal(light.order, exponent), mirror));
+}
+
 glm::vec3 shade(const Lobes& lobes, const sh::ShRgb& light, const glm::vec3& normal,
                 const glm::vec3& to_view) {
-  const sh::Sh lambert = sh::rotateZonal(lambertZonal(light.order), normal);
-  const sh::Sh phong =
-      sh::rotateZonal(phongZonal(light.order, lobes.exponent), mirrorDirection(normal, to_view));
-  return lobes.diffuse * sh::dot(light, lambert) + lobes.specular * sh::dot(light, phong);
+  return lobes.diffuse * shadeLambert(light, normal) +
+         lobes.specular * shadePhong(light, mirrorDirection(normal, to_view), lobes.exponent);
 }
 
 float lambertPdf(const glm::vec3& normal, const glm::vec3& direction) {

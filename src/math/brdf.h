@@ -19,13 +19,13 @@ namespace gloam::brdf {
 struct Lobes {
   glm::vec3 diffuse{0.0f};   ///< k_d, albedo of the Lambert lobe
   glm::vec3 specular{0.0f};  ///< k_s, integral of the Phong lobe
-  float exponent = 1.0f;     ///< n, 1 to kMaxExponent
+  float exponent = 1.0f;     ///< n, 1 to kMaxPhongExponent
 };
 
 /// Smooth surfaces are drawn with this exponent: a lobe 0.1 degrees wide, which floats still resolve.
-inline constexpr float kMaxExponent = 1.0e6f;
+inline constexpr float kMaxPhongExponent = 1.0e6f;
 
-/// n = max(1, 2 / roughness^4 - 2), at most kMaxExponent.
+/// n = max(1, 2 / roughness^4 - 2), at most kMaxPhongExponent.
 float phongExponent(float roughness);
 /// k_d = base (1 - metallic), k_s = mix(0.04, base, metallic).
 Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness);
@@ -49,12 +49,14 @@ float phongBandFactor(int l, float exponent);
 /// The same as zonal functions (RF-5's coefficients without k_d and k_s).
 sh::Zh lambertZonal(int order);
 sh::Zh phongZonal(int order, float exponent);
+/// Radiance that one lobe, without its colour, makes of SH light.
+glm::vec3 shadeLambert(const sh::ShRgb& light, const glm::vec3& normal);
+glm::vec3 shadePhong(const sh::ShRgb& light, const glm::vec3& mirror, float exponent);
 /// Radiance towards the view that both lobes give under SH light.
 glm::vec3 shade(const Lobes& lobes, const sh::ShRgb& light, const glm::vec3& normal,
                 const glm::vec3& to_view);
 
-// ---- Sampling (path tracing)
-// ---------------------------------------------------------------------------------------
+// ---- Sampling (path tracing) ----
 
 /// Densities over solid angle, in 1/sr, of the samplers in math/sampling.h aimed at the lobes.
 float lambertPdf(const glm::vec3& normal, const glm::vec3& direction);

@@ -14,8 +14,7 @@ namespace gloam::sampling {
 
 inline constexpr float kPi = 3.14159265358979323846f;
 
-// ---- Random numbers
-// ------------------------------------------------------------------------------------------------
+// ---- Random numbers ----
 
 /// PCG's output permutation as a hash (Jarzynski, Olano 2020).
 std::uint32_t pcgHash(std::uint32_t value);
@@ -42,8 +41,7 @@ class Rng {
   glm::uvec4 block_{0u};
 };
 
-// ---- Quasi-random sequences
-// ----------------------------------------------------------------------------------------
+// ---- Quasi-random sequences ----
 
 float radicalInverse(std::uint32_t base, std::uint64_t i);
 /// Roberts' R2 sequence, an additive recurrence in fixed point: exact for every i.
@@ -53,8 +51,7 @@ glm::vec2 sobol2(std::uint32_t i);
 /// The same, Owen-scrambled by a hash (Burley 2020): a random set for every seed, each as even.
 glm::vec2 sobol2(std::uint32_t i, std::uint32_t seed);
 
-// ---- Warps
-// ---------------------------------------------------------------------------------------------------------
+// ---- Warps ----
 
 glm::vec3 uniformSphere(const glm::vec2& u);                      ///< pdf 1 / 4 pi
 glm::vec3 uniformHemisphere(const glm::vec2& u);                  ///< about +Z, pdf 1 / 2 pi
@@ -66,8 +63,7 @@ glm::vec3 uniformTriangle(const glm::vec2& u);  ///< barycentric coordinates (He
 /// Right-handed orthonormal frame whose third column is the unit normal (Duff et al. 2017): world_from_local.
 glm::mat3 frame(const glm::vec3& normal);
 
-// ---- Sets of directions
-// --------------------------------------------------------------------------------------------
+// ---- Sets of directions ----
 
 /// Spherical Fibonacci point i of count: even, low error for smooth functions.
 glm::vec3 fibonacciDirection(std::uint32_t i, std::uint32_t count);
@@ -98,10 +94,11 @@ struct TiledDirections {
   /// Solid angle of each direction where `tile_count` first tiles are used.
   static float solidAngle(int tile_count) { return 4.0f * kPi / static_cast<float>(tile_count * kTileSize); }
 };
-/// `count` is rounded up to whole tiles (1 to 2^24 directions, else Error). The set is the union of `levels` spherical
-/// Fibonacci sets of 1/2, 1/4, … of all directions, least first; at their ends, even_prefixes, the error of a prefix is
-/// that of such a set. Between them it is no more than that of random directions. One level gives the most compact
-/// tiles and the fastest rays; two cost about 20 % of the rate, three 27 % (docs/sh.md). `seed` turns the set.
+/// `count` is rounded up to whole tiles (1 to 2^24 directions, else Error). The set is the union of `levels`
+/// spherical Fibonacci sets of 1/2, 1/4, … of all directions, least first; at their ends, even_prefixes, the
+/// error of a prefix is that of such a set. Between them it is no more than that of random directions. One
+/// level gives the most compact tiles and the fastest rays; two cost about 20 % of the rate, three 27 %
+/// (docs/sh.md). `seed` turns the set.
 TiledDirections makeTiledDirections(int count, int levels = 1, std::uint32_t seed = 0);
 
 }  // namespace gloam::sampling

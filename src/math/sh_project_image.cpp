@@ -6,7 +6,8 @@
 // Equirectangular: with y and z exchanged the picture's pole is that of the basis, and y_lm = N p(z) sin^|m| Phi_m(phi)
 // integrates over a texel as a product: sin and cos integrals along a row, Gauss points across it. The exchange matrix J
 // turns the result back. Exact for texels of constant radiance; 11 sums a texel instead of 36.
-// Cube: 2 x 2 Gauss points a texel, weighted so that they sum to the texel's exact solid angle.
+// Cube: Gauss points in each texel (2 x 2, more in small cubes), weighted so that they sum to its exact solid angle.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -90,6 +91,26 @@ double texelSolidAngle(int column, int row, int size) {
          cornerSolidAngle(s1, t1);
 }
 
+using Values = std::array<double, kMaxCoefficients>;
+
+/// Integral of the basis over a texel of a cube.
+Values texelIntegral(int order, int face, int column, int row, int size, const GaussLegendre<double>& rule) {
+  Values basis{};
+  double weight_sum = 0.0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i)
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+      const double u = (column + 0.5 + 0.5 * rule.nodes[i]) / size,
+                   v = (row + 0.5 + 0.5 * rule.nodes[j]) / size;
+      const double s = 2.0 * u - 1.0, t = 2.0 * v - 1.0, distance2 = 1.0 + s * s + t * t;
+      const double weight = rule.weights[i] * rule.weights[j] / (distance2 * std::sqrt(distance2));
+      const Sh y = evaluate(order, cubeDirection(face, static_cast<float>(u), static_cast<float>(v)));
+      for (int k = 0; k < y.size(); ++k) basis[static_cast<std::size_t>(k)] += weight * double(y[k]);
+      weight_sum += weight;
+    }
+  for (double& value : basis) value *= texelSolidAngle(column, row, size) / weight_sum;
+  return basis;
+}
+
 }  // namespace
 
 ShRgb projectEquirectangular(int order, std::span<const glm::vec3> texels, int width, int height) {
@@ -139,30 +160,15 @@ ShRgb projectEquirectangular(int order, std::span<const glm::vec3> texels, int w
 ShRgb projectCube(int order, std::span<const glm::vec3> texels, int size) {
   checkOrder(order);
   checkTexels("cube projection", texels.size(), 6LL * size, size);
-  const double offset = 0.5 / std::sqrt(3.0);  // two-point Gauss nodes in a texel of width 1
+  const GaussLegendre<double> rule(std::clamp(32 / size, 2, 16));
   std::array<glm::dvec3, kMaxCoefficients> sum{};
+  const glm::vec3* texel = texels.data();
   for (int face = 0; face < 6; ++face)
     for (int row = 0; row < size; ++row)
-      for (int column = 0; column < size; ++column) {
-        std::array<double, kMaxCoefficients> basis{};
-        double weight_sum = 0.0;
-        for (int point = 0; point < 4; ++point) {
-          const double u = (column + 0.5 + (point % 2 == 0 ? -offset : offset)) / size;
-          const double v = (row + 0.5 + (point < 2 ? -offset : offset)) / size;
-          const double s = 2.0 * u - 1.0, t = 2.0 * v - 1.0, distance2 = 1.0 + s * s + t * t;
-          const double weight = 1.0 / (distance2 * std::sqrt(distance2));
-          const Sh y = evaluate(order, cubeDirection(face, static_cast<float>(u), static_cast<float>(v)));
-          for (int i = 0; i < y.size(); ++i) basis[static_cast<std::size_t>(i)] += weight * double(y[i]);
-          weight_sum += weight;
-        }
-        const std::size_t texel = (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) +
-                                   static_cast<std::size_t>(row)) *
-                                      static_cast<std::size_t>(size) +
-                                  static_cast<std::size_t>(column);
-        const glm::dvec3 radiance =
-            glm::dvec3(texels[texel]) * (texelSolidAngle(column, row, size) / weight_sum);
+      for (int column = 0; column < size; ++column, ++texel) {
+        const Values basis = texelIntegral(order, face, column, row, size, rule);
         for (std::size_t i = 0; i < static_cast<std::size_t>(coefficientCount(order)); ++i)
-          sum[i] += radiance * basis[i];
+          sum[i] += glm::dvec3(*texel) * basis[i];
       }
   ShRgb result(order);
   for (int i = 0; i < result.size(); ++i) result[i] = glm::vec3(sum[static_cast<std::size_t>(i)]);
