@@ -70,7 +70,8 @@ class Binder {
   }
   /// Memory that the shader reaches through an address (GL_EXT_buffer_reference).
   Self& readByAddress(BufferRef buffer) { return add({{}, Use::kRead, {}, buffer, {}}); }
-  Self& writeByAddress(BufferRef buffer) { return add({{}, Use::kReadWrite, {}, buffer, {}}); }
+  Self& writeByAddress(BufferRef buffer) { return add({{}, Use::kWrite, {}, buffer, {}}); }
+  Self& readWriteByAddress(BufferRef buffer) { return add({{}, Use::kReadWrite, {}, buffer, {}}); }
 
   /// The push block; as many bytes as the shader declares.
   template <class T>

@@ -160,9 +160,11 @@ const Candidate& choose(const std::vector<Candidate>& candidates, const std::str
   for (const auto& candidate : candidates) {
     if (choice.empty() || choice == std::to_string(candidate.info.index)) matches.push_back(&candidate);
   }
+  const bool is_index = !matches.empty();  // an index wins over a number inside a name
   for (const auto& candidate : candidates) {
-    if (!matches.empty()) break;  // an index wins over a number inside a name
-    if (lower(candidate.info.name).find(lower(choice)) != std::string::npos) matches.push_back(&candidate);
+    if (!is_index && lower(candidate.info.name).find(lower(choice)) != std::string::npos) {
+      matches.push_back(&candidate);
+    }
   }
   if (matches.empty()) {
     throw Error("device '" + choice + "'",

@@ -231,28 +231,24 @@ HostPass& FrameGraph::host(const std::string& name) {
   return state_->add(std::move(pass));
 }
 
-void FrameGraph::clear(const std::string& name, ImageRef image, const std::array<float, 4>& value) {
+void FrameGraph::clear(const std::string& name, ImageRef image, const ClearColor& value) {
   if (!image) throw Error("pass '" + name + "'", "clears an empty reference");
   const VkImageSubresourceRange range{
       formatInfo(image.format()).aspect, static_cast<std::uint32_t>(image.range().mip),
       static_cast<std::uint32_t>(image.range().mips), static_cast<std::uint32_t>(image.range().layer),
       static_cast<std::uint32_t>(image.range().layers)};
   const VolkDeviceTable& vk = state_->device.vk();
-  state_->addTransfer(
-      name, {{"(cleared)", image, {}, kTransferWrite, false, true}}, [=, &vk](VkCommandBuffer commands) {
-        if (range.aspectMask == VK_IMAGE_ASPECT_DEPTH_BIT) {
-          const VkClearDepthStencilValue depth{value[0], 0};
-          vk.vkCmdClearDepthStencilImage(commands, image.image().handle(), kTransferWrite.layout, &depth, 1,
-                                         &range);
-        } else {
-          const auto color = std::bit_cast<VkClearColorValue>(value);
-          vk.vkCmdClearColorImage(commands, image.image().handle(), kTransferWrite.layout, &color, 1, &range);
-        }
-      });
-}
-
-void FrameGraph::clear(const std::string& name, ImageRef image, const std::array<std::uint32_t, 4>& value) {
-  clear(name, image, std::bit_cast<std::array<float, 4>>(value));
+  state_->addTransfer(name, {{"(cleared)", image, {}, kTransferWrite, false, true}},
+                      [=, &vk](VkCommandBuffer commands) {
+                        if (range.aspectMask == VK_IMAGE_ASPECT_DEPTH_BIT) {
+                          const VkClearDepthStencilValue depth{value.value.float32[0], 0};
+                          vk.vkCmdClearDepthStencilImage(commands, image.image().handle(),
+                                                         kTransferWrite.layout, &depth, 1, &range);
+                        } else {
+                          vk.vkCmdClearColorImage(commands, image.image().handle(), kTransferWrite.layout,
+                                                  &value.value, 1, &range);
+                        }
+                      });
 }
 
 void FrameGraph::clear(const std::string& name, BufferRef buffer, std::uint32_t word) {

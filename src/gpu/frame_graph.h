@@ -94,9 +94,9 @@ class FrameGraph {
   /// Depth only.
   RasterPass& raster(const std::string& name, const ShaderCode& vertex);
   HostPass& host(const std::string& name);
-  void clear(const std::string& name, ImageRef image, const std::array<float, 4>& value = {0, 0, 0, 0});
-  void clear(const std::string& name, ImageRef image, const std::array<std::uint32_t, 4>& value);
-  /// Depth images take value[0] of the float version. Buffers: every 32-bit word becomes `word`.
+  /// Depth images take the first component. All mips and layers that `image` refers to.
+  void clear(const std::string& name, ImageRef image, const ClearColor& value = {0, 0, 0, 0});
+  /// Every 32-bit word becomes `word`.
   void clear(const std::string& name, BufferRef buffer, std::uint32_t word = 0);
   /// Same size and format: all bits. Else, for colour formats with filtering: scaled, bilinear.
   void copy(const std::string& name, ImageRef from, ImageRef to);

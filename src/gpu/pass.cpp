@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/pass.h"
 
-#include <bit>
-
 namespace gloam::gpu {
 
 void ComputePass::dispatchOver(ImageRef image) {
@@ -61,14 +59,8 @@ RasterPass& RasterPass::color(std::string_view output, ImageRef image) {
   return *this;
 }
 
-RasterPass& RasterPass::color(std::string_view output, ImageRef image, const std::array<float, 4>& clear) {
-  colors.push_back({std::string(output), image, std::bit_cast<VkClearColorValue>(clear)});
-  return *this;
-}
-
-RasterPass& RasterPass::color(std::string_view output, ImageRef image,
-                              const std::array<std::uint32_t, 4>& clear) {
-  colors.push_back({std::string(output), image, std::bit_cast<VkClearColorValue>(clear)});
+RasterPass& RasterPass::color(std::string_view output, ImageRef image, const ClearColor& clear) {
+  colors.push_back({std::string(output), image, clear});
   return *this;
 }
 

@@ -59,10 +59,24 @@ class Draw : public Binder<Draw> {
   std::int32_t vertex_offset = 0;
 };
 
+/// A value to clear to: {r, g, b, a} for floats and normalised formats, uints() for integer ones.
+struct ClearColor {
+  ClearColor(float r, float g, float b, float a) : value{.float32 = {r, g, b, a}} {}
+  ClearColor(const std::array<float, 4>& rgba) : ClearColor(rgba[0], rgba[1], rgba[2], rgba[3]) {}  // NOLINT
+  ClearColor(const std::array<std::uint32_t, 4>& rgba)                                              // NOLINT
+      : ClearColor(uints(rgba[0], rgba[1], rgba[2], rgba[3])) {}
+  static ClearColor uints(std::uint32_t r, std::uint32_t g = 0, std::uint32_t b = 0, std::uint32_t a = 0) {
+    ClearColor color(0.0f, 0.0f, 0.0f, 0.0f);
+    color.value = {.uint32 = {r, g, b, a}};
+    return color;
+  }
+  VkClearColorValue value;
+};
+
 struct ColorTarget {
   std::string output;
   ImageRef image;
-  std::optional<VkClearColorValue> clear;
+  std::optional<ClearColor> clear;
 };
 
 /// A raster pass: one program (or depth only), any number of draws.
@@ -71,8 +85,7 @@ class RasterPass : public Binder<RasterPass> {
   /// The output of the fragment shader of that name goes into `image` (one mip, one layer); kept where it is
   /// not drawn over, unless a clear value is given.
   RasterPass& color(std::string_view output, ImageRef image);
-  RasterPass& color(std::string_view output, ImageRef image, const std::array<float, 4>& clear);
-  RasterPass& color(std::string_view output, ImageRef image, const std::array<std::uint32_t, 4>& clear);
+  RasterPass& color(std::string_view output, ImageRef image, const ClearColor& clear);
   RasterPass& depth(ImageRef image);
   RasterPass& depth(ImageRef image, float clear);
   /// Depth that is tested but not written, so that the pass may read it too.

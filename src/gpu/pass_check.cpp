@@ -131,14 +131,21 @@ void gatherBindings(const Device& device, const std::string& name, const Interfa
   specializationOf(place, interface, pass, draw);
 }
 
-void gatherAddressed(const Interface& interface, const Bindings& bindings, Gathered& gathered) {
+void gatherAddressed(const std::string& place, const Interface& interface, const Bindings& bindings,
+                     Gathered& gathered) {
   Binding everywhere;
   everywhere.stages = interface.stages;
   for (const auto& resource : bindings.resources) {
     if (!resource.name.empty()) continue;
-    everywhere.writable = resource.use == Use::kReadWrite;
-    gathered.add(
-        {"(by address)", {}, resource.buffer, shaderAccess(everywhere, resource), true, everywhere.writable});
+    if (!resource.buffer)
+      throw Error(place, "an empty reference was given for what the shader reaches by address");
+    everywhere.writable = resource.use != Use::kRead;
+    gathered.add({"(by address)",
+                  {},
+                  resource.buffer,
+                  shaderAccess(everywhere, resource),
+                  resource.use != Use::kWrite,
+                  everywhere.writable});
   }
 }
 
@@ -149,7 +156,7 @@ std::vector<Touch> checkCompute(const Device& device, const ComputePass& pass) {
   if (!pass.finished) throw Error(place, "was never dispatched");
   checkNames(place, interface, pass.bindings());
   gatherBindings(device, pass.name, interface, pass.bindings(), nullptr, gathered);
-  gatherAddressed(interface, pass.bindings(), gathered);
+  gatherAddressed(place, interface, pass.bindings(), gathered);
   checkPush(place, interface, pass.bindings().push);
   groupsOf(device, pass);
   if (pass.indirect) {
@@ -227,11 +234,11 @@ std::vector<Touch> checkRaster(const Device& device, const RasterPass& pass) {
   Gathered gathered(place);
   gatherTargets(pass, interface, gathered);
   checkNames(place, interface, pass.bindings());
-  gatherAddressed(interface, pass.bindings(), gathered);
+  gatherAddressed(place, interface, pass.bindings(), gathered);
   for (const auto& draw : pass.draws) {
     checkNames(place, interface, draw.bindings());
     gatherBindings(device, pass.name, interface, pass.bindings(), &draw.bindings(), gathered);
-    gatherAddressed(interface, draw.bindings(), gathered);
+    gatherAddressed(place, interface, draw.bindings(), gathered);
     checkPush(place, interface, draw.bindings().push.empty() ? pass.bindings().push : draw.bindings().push);
     if (!draw.indices) continue;
     if ((std::size_t{draw.first} + draw.count) * sizeof(std::uint32_t) > draw.indices.bytes()) {

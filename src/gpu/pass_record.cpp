@@ -141,7 +141,7 @@ Targets targetsOf(const RasterPass& pass, const std::vector<bool>& load) {
       auto& info = targets.colors[output.location];
       info = attachment(target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
       if (target.clear || !load[i]) info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-      if (target.clear) info.clearValue.color = *target.clear;
+      if (target.clear) info.clearValue.color = target.clear->value;
       targets.formats.colors[output.location] = target.image.format();
     }
   }

@@ -295,6 +295,9 @@ Interface reflect(const ShaderCode& code) {
     }
   }
   reader.readConstants();
+  std::sort(out.bindings.begin(), out.bindings.end(), [](const Binding& a, const Binding& b) {
+    return std::pair(a.set, a.binding) < std::pair(b.set, b.binding);
+  });
   return out;
 }
 

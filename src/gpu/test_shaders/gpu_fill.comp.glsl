@@ -1,0 +1,16 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/test_shaders/gpu_test_shared.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform writeonly image2D target;
+layout(scalar, push_constant) uniform Push { FillParams params; };
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, imageSize(target)))) return;
+  const vec2 value = vec2(pixel) * params.scale + params.offset;
+  imageStore(target, pixel, vec4(value, value.x + value.y, 1.0));
+}
