@@ -164,6 +164,7 @@ struct Environment {
   std::vector<glm::vec3> radiance;  ///< width * height
   float rotation_rad = 0.0f;        ///< turns the light about +Y, counter-clockwise seen from above
   float intensity = 1.0f;
+  Warnings warnings;  ///< what the reader mended
   bool empty() const { return radiance.empty(); }
 };
 
@@ -207,8 +208,9 @@ struct WriteOptions {
 /// throws Error where the file cannot be written.
 void writeGlb(const Scene& scene, const std::filesystem::path& path, const WriteOptions& options = {});
 
-/// Reads an equirectangular .hdr or .exr, or makes an analytic sky by name ("sky:mild", "sky:uniform", …, as
-/// `gloam list` shows). Throws Error.
+/// Reads an equirectangular .hdr or .exr, or makes an analytic sky by name ("sky:mild", "sky:preetham?elevation=30", …,
+/// as `gloam list` shows; docs/skies.md). Negative pixels become 0 with a warning. Throws Error, also for a pixel that is
+/// not a number or infinite.
 Environment loadEnvironment(const std::string& path_or_name);
 const std::vector<BuiltinScene>& builtinSkies();
 /// Radiance that arrives from a direction, bilinear, with the environment's rotation and intensity.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/mesh_repair.h"
 #include "scene/transforms.h"
 
 namespace gloam::shapes {
@@ -113,6 +114,7 @@ Mesh surface(int nu, int nv, const std::function<SurfacePoint(float u, float v)>
     }
   }
   addGridTriangles(mesh, 0, nu, nv);
+  removeUnusedVertices(mesh);  // the last one of a row at a pole
   return mesh;
 }
 

@@ -1,0 +1,63 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "scene/builtin_scenes.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "scene/scene_builder.h"
+
+namespace gloam {
+namespace {
+
+struct Entry {
+  BuiltinScene about;
+  Scene (*make)(const Detail&, NamedValues&);
+};
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      {{"furnace", "a white sphere under white light: radiance 1 everywhere"}, makeFurnace},
+      {{"furnace-concave", "a white bowl with a wall under white light: tends to 1 with bounces"},
+       makeConcaveFurnace},
+      {{"bowl", "an open spherical bowl, one sheet, with a known answer (coverage, albedo)"}, makeBowl},
+      {{"cornell", "a box with a red and a green wall, two boxes, a skylight with a lamp"}, makeCornell},
+      {{"spheres", "diffuse, glossy and metal spheres of five roughnesses on a plinth"}, makeSpheres},
+      {{"shadow", "three rings round a ball float above a plinth: soft shadows"}, makeShadow},
+      {{"columns", "an arcade before a red wall: shadow and bleeding colour in depth"}, makeColumns},
+      {{"lamp", "a corner of a room at night: point, spot and directional light through thin bars"},
+       makeLamp},
+      {{"textured", "tiles, bricks, a plant: textures, normal maps, alpha masks, texture transforms"},
+       makeTextured},
+      {{"walker", "a skinned figure that walks round a pedestal (8 s, loops)"}, makeWalker},
+      {{"mobile", "a turning knot among bouncing balls (8 s, loops): rigid animation"}, makeMobile},
+  };
+  return all;
+}
+
+}  // namespace
+
+const std::vector<BuiltinScene>& builtinScenes() {
+  static const std::vector<BuiltinScene> list = [] {
+    std::vector<BuiltinScene> names;
+    for (const Entry& entry : entries()) names.push_back(entry.about);
+    return names;
+  }();
+  return list;
+}
+
+Scene makeBuiltinScene(const std::string& description) {
+  NamedValues values("builtin:", description);
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) {
+    names.emplace_back(entry.about.name);
+    if (values.name() != entry.about.name) continue;
+    const Detail detail{float(values.take("detail", 1, 0.25, 8))};
+    Scene scene = entry.make(detail, values);
+    values.finish();
+    return scene;
+  }
+  throw Error(values.place(), fmt::format("no such scene; there are {}", fmt::join(names, ", ")));
+}
+
+}  // namespace gloam
