@@ -28,8 +28,7 @@ int main(int argc, char** argv) try {
   options.technique = "irradiance";
   const gloam::RenderedFrame frame = renderer.render(posed, camera, options);
 
-  const gloam::Image radiance = frame.layers.image("", {"R", "G", "B"}, picture);
-  gloam::writePng(gloam::toneMapped(radiance, {}), picture);
+  gloam::writePng(gloam::toDisplay(frame.layers, {.exposure_stops = 0.0f}), picture);
   std::printf("%s: %s by %s\n", picture.c_str(), file.c_str(), renderer.device().name.c_str());
   return 0;
 } catch (const gloam::Error& error) {

@@ -67,7 +67,7 @@ void printResult(const BakeChoice& choice, const BakeReport& report, Console& co
   std::error_code ignored;
   const auto size = double(fs::file_size(choice.output, ignored));
   if (!console.json) {
-    console.remark(fmt::format("wrote {} ({}): {} vertices; first pass {} ({:.1f} Mrays/s), bounces {}{}",
+    console.remark(fmt::format("wrote {} ({}): {} points; first pass {} ({:.1f} Mrays/s), bounces {}{}",
                                choice.output, bytesText(size), countText(report.vertices),
                                durationText(report.first_pass_s), rate / 1e6, durationText(report.bounces_s),
                                report.resumed ? "; resumed" : ""));
@@ -81,8 +81,9 @@ void printResult(const BakeChoice& choice, const BakeReport& report, Console& co
                           {"bounces", options.kind == TransferKind::kInterreflected ? options.bounces : 0},
                           {"directions", options.directions},
                           {"half_float", choice.half_float},
-                          {"vertices", report.vertices},
+                          {"points", report.vertices},
                           {"rays", report.rays},
+                          {"bounce_rays", report.bounce_rays},
                           {"first_pass_s", report.first_pass_s},
                           {"bounces_s", report.bounces_s},
                           {"rays_per_s", rate},
@@ -124,7 +125,7 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
   add("--order", options.order, {3, 6}, "bands of spherical harmonics; N*N coefficients a vertex");
   add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di");
   add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
-  add("--bounce-directions", options.bounce_directions, {256, 65536}, "rays a vertex in each later pass");
+  add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass");
   addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
       ->default_str("0")
       ->group("Transfer");
@@ -133,9 +134,7 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
 std::function<int()> declareBake(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<BakeChoice>();
   addSceneOptions(app, choice->scene);
-  addText(app, "-o,--output", choice->output, "FILE",
-          "the baked scene, a .glb; by default the scene's name and _prt.glb")
-      ->group("Output");
+  addOutput(app, choice->output, "FILE", "the baked scene, a .glb; by default the scene's name and _prt.glb");
   addSimulatorOptions(app, *choice);
   app.add_flag("--half", choice->half_float, "store transfer as 16-bit floats: half the size")
       ->group("Output");

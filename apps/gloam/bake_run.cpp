@@ -46,6 +46,23 @@ std::optional<Scene> readKept(const fs::path& file) {
   return std::nullopt;
 }
 
+/// A checkpoint that cannot be used (of an older gloam, damaged) is nobody's but the cache's: it goes, the bake begins anew.
+Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& console) {
+  std::error_code ignored;
+  try {
+    try {
+      return bakeTransfer(scene, options, console.progress());
+    } catch (const Error&) {
+      if (!fs::remove(options.checkpoint, ignored)) throw;
+      return bakeTransfer(scene, options, console.progress());
+    }
+  } catch (const Interrupted&) {
+    throw Interrupted(options.checkpoint.empty()
+                          ? "interrupted while baking"
+                          : "interrupted while baking; the same command goes on from here");
+  }
+}
+
 }  // namespace
 
 std::string estimateText(const BakeEstimate& estimate, const BakeOptions& options) {
@@ -75,13 +92,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s,
   }
   console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate, options)));
   console.release();
-  Scene baked;
-  try {
-    baked = bakeTransfer(scene, options, console.progress());
-  } catch (const Interrupted&) {
-    throw Interrupted(folder ? "interrupted while baking; the same command goes on from here"
-                             : "interrupted while baking");
-  }
+  Scene baked = bakeResumed(scene, options, console);
   console.endProgress();
   baked.environment = scene.environment;
   if (folder) {

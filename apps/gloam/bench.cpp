@@ -78,8 +78,10 @@ int benchTechnique(const BenchChoice& choice, Console& console) {
   options.technique = info.name;
   options.settings = settingsFor(info, choice.technique);
   options.timings = true;
+  options.layers = false;
   const PosedCamera camera = chooseCamera(posed, choice.view, console);
   const Timings timings = measure(renderer, posed, camera, options, choice.frames, console);
+  checkValidation(renderer);
 
   const std::string size = fmt::format("{}x{}", options.width, options.height);
   if (console.json) {
@@ -101,7 +103,7 @@ int benchTechnique(const BenchChoice& choice, Console& console) {
 }
 
 int runBench(const BenchChoice& choice, Console& console) {
-  if (const BenchSuite* suite = findSuite(choice.subject)) return suite->run(console);
+  if (const BenchSuite* suite = findSuite(choice.subject)) return suite->run(choice.scene.name, console);
   return benchTechnique(choice, console);
 }
 
@@ -142,7 +144,8 @@ const Verb kBenchVerb = {
     "bench", "measures: times of each pass, or of a part that runs on the CPU",
     "gloam bench prt builtin:cornell --size 1024x1024 | medians and 95th percentiles of each pass\n"
     "gloam bench irradiance model.glb --env probe.exr --frames 50 --json | for programs\n"
-    "gloam bench sh | spherical harmonics: nanoseconds an operation, one thread\n",
+    "gloam bench sh | spherical harmonics: nanoseconds an operation, one thread\n"
+    "gloam bench bake bunny.obj | the baker's rays a second beside those of the tracing library alone\n",
     declareBench};
 
 }  // namespace gloam::cli

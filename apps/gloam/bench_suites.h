@@ -12,7 +12,7 @@ namespace gloam::cli {
 struct BenchSuite {
   const char* name;
   const char* summary;
-  int (*run)(Console& console);
+  int (*run)(const std::string& scene, Console& console);
 };
 std::span<const BenchSuite> benchSuites();
 

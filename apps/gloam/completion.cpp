@@ -93,7 +93,7 @@ std::string bashScript() {
          "_gloam_folders() { local IFS=$'\\n'; compopt -o filenames; COMPREPLY+=($(compgen -d -- "
          "\"$word\")); }\n"
          "_gloam() {\n"
-         "  local line=\"${COMP_LINE:0:COMP_POINT}\" word previous verb=${COMP_WORDS[1]}\n"
+         "  local line=\"${COMP_LINE:0:COMP_POINT}\" word previous verb=${COMP_WORDS[1]-}\n"
          "  local -a typed; read -ra typed <<< \"$line\"\n"
          "  case $line in *[[:space:]]) typed+=('') ;; esac\n"
          "  word=${typed[-1]} previous=${typed[-2]}\n"

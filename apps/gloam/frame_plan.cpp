@@ -13,15 +13,15 @@ namespace {
 constexpr int kMaxFrames = 100000;
 
 MotionChoice::Interval parseInterval(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) {
-    throw Error("--animate", fmt::format("'{}': expected seconds FROM:TO, such as 0:4", text));
-  }
   const Range range{0.0, 1e6};
-  const auto from = float(parseNumber("--animate", text.substr(0, colon), range));
-  const auto to = float(parseNumber("--animate", text.substr(colon + 1), range));
-  if (!(to > from)) throw Error("--animate", fmt::format("'{}': expected an end after the beginning", text));
-  return {from, to};
+  try {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const auto from = float(parseNumber("", text.substr(0, colon), range));
+    const auto to = float(parseNumber("", text.substr(std::min(colon + 1, text.size())), range));
+    if (to > from) return {from, to};
+  } catch (const Error&) {
+  }
+  throw Error("--animate", fmt::format("'{}': expected seconds FROM:TO, such as 0:4", text));
 }
 
 }  // namespace

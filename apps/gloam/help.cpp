@@ -31,8 +31,16 @@ std::string twoColumns(const std::string& left, const std::string& text) {
   return out + '\n';
 }
 
+std::string namesOf(const CLI::Option& option) {
+  if (option.get_positional()) return option.get_name(true);
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return CLI::detail::join(names, ", ");
+}
+
 std::string optionLine(const CLI::Option& option) {
-  std::string left = "  " + option.get_name(option.get_positional(), true);
+  std::string left = "  " + namesOf(option);
   if (!option.get_positional() && option.get_type_size() != 0) left += " " + option.get_type_name();
   std::string text = option.get_description();
   if (!option.get_default_str().empty()) text += fmt::format(" [{}]", option.get_default_str());

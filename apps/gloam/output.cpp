@@ -43,7 +43,9 @@ class PictureOutput : public FrameOutput {
     } else if (path.extension() == ".exr" && layer_.empty()) {
       writeExr(frame, path);
     } else {
-      writeImage(isLight() ? lightOf(frame, layer_) : shownPicture(frame, layer_, display), path);
+      const bool numbers =
+          layer_.empty() || layer_ == "direct" || layer_ == "indirect" || !isFrameLayer(layer_);
+      writeImage(numbers ? lightOf(frame, layer_) : shownPicture(frame, layer_, display), path);
     }
     written_.push_back(path);
   }
@@ -51,8 +53,6 @@ class PictureOutput : public FrameOutput {
   std::vector<fs::path> finish() override { return written_; }
 
  private:
-  bool isLight() const { return layer_.empty() || layer_ == "direct" || layer_ == "indirect"; }
-
   fs::path nameOf(std::size_t index) const {
     std::string name = pattern_.filename().string();
     const std::size_t first = name.find('#');
@@ -114,7 +114,6 @@ std::unique_ptr<FrameOutput> openOutput(const OutputRequest& request) {
   const fs::path& path = request.path;
   const std::string extension = path.extension().string();
   std::error_code ignored;
-  if (path.empty()) throw Error("--output", fmt::format("is empty; {}", kForms));
   if (fs::is_directory(path, ignored) || extension.empty() || !path.has_filename()) {
     return std::make_unique<PictureOutput>(request, path / "frame_####.png");
   }

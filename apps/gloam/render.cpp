@@ -67,6 +67,9 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.options.supersample = choice.view.supersample;
   stage.options.technique = stage.technique->name;
   stage.options.background = choice.background;
+  stage.options.layers =
+      isFrameLayer(choice.layer) || (choice.layer.empty() && choice.output.ends_with(".exr"));
+  if (!isFrameLayer(choice.layer)) stage.options.show = choice.layer;
   return stage;
 }
 
@@ -119,6 +122,7 @@ int runRender(RenderChoice choice, Console& console) {
 
   DisplayOptions display = choice.display;
   Timings timings;
+  Warnings warned;
   const Progress progress = console.progress();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (interrupted()) {
@@ -132,11 +136,15 @@ int runRender(RenderChoice choice, Console& console) {
     const RenderedFrame frame = renderer.render(posed, camera, stage.options);
     timings.add(
         frame, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count());
+    for (const std::string& warning : frame.warnings) {
+      if (std::ranges::find(warned, warning) == warned.end()) console.remark(warned.emplace_back(warning));
+    }
     holdExposure(display, frame.layers);
     output->write(frame.layers, display);
     console.release();
   }
   printResult(choice, stage, renderer, timings, display, output->finish(), console);
+  checkValidation(renderer);
   return kDone;
 }
 
@@ -158,21 +166,21 @@ void addDisplayOptions(CLI::App& app, RenderChoice& choice) {
   app.add_flag("--background,!--no-background", choice.background,
                "draw the light behind the scene, or leave it clear [on]")
       ->group("Output");
-  addChoice(app, "--show", choice.layer, shownLayers(), "one layer of the frame instead of its light")
+  addText(app, "--show", choice.layer, CLI::detail::join(frameLayers(), "|") + "|NAME",
+          "one layer of the frame instead of its light, or any image of the technique by name")
       ->group("Output");
 }
 
 std::function<int()> declareRender(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<RenderChoice>();
   addSceneOptions(app, choice->scene);
-  addText(app, "-o,--output", choice->output, "FILE|FOLDER",
-          "x.png, x.exr, x.hdr, x.mp4, x_####.png, or a folder of frames; by default the scene's name")
-      ->group("Output");
-  addTechniqueOptions(app, choice->technique);
-  addDeviceOption(app, choice->device);
+  addOutput(app, choice->output, "FILE|FOLDER",
+            "x.png, x.exr, x.hdr, x.mp4, x_####.png, or a folder of frames; by default the scene's name");
   addLightOptions(app, choice->light);
   addViewOptions(app, choice->view);
   addMotionOptions(app, choice->motion);
+  addTechniqueOptions(app, choice->technique);
+  addDeviceOption(app, choice->device);
   addDisplayOptions(app, *choice);
   app.add_flag("--no-cache{false}", choice->use_cache,
                "neither take nor keep the bake of a scene that has none");

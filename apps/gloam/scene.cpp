@@ -48,7 +48,7 @@ int runScene(WriteChoice choice, Console& console) {
 std::function<int()> declareScene(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<WriteChoice>();
   addSceneOptions(app, choice->scene);
-  addText(app, "-o,--output", choice->output, "FILE", "a .glb; by default the scene's name")->group("Output");
+  addOutput(app, choice->output, "FILE", "a .glb; by default the scene's name");
   addConsoleOptions(app, console, true);
   return [choice, &console] { return runScene(*choice, console); };
 }

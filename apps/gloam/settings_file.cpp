@@ -67,7 +67,8 @@ void setOption(CLI::App& app, const std::string& file, const std::string& key, c
 
 void addSettingsFile(CLI::App& app) {
   const auto read = [&app](const std::string& file) {
-    for (const auto& [key, value] : readSettings(file).items()) {
+    const Json settings = readSettings(file);
+    for (const auto& [key, value] : settings.items()) {
       if (!value.is_object()) {
         setOption(app, file, key, value);
         continue;

@@ -48,17 +48,19 @@ Image objectColors(const LayeredImage& frame) {
 
 }  // namespace
 
-const std::vector<std::string>& shownLayers() {
+const std::vector<std::string>& frameLayers() {
   static const std::vector<std::string> kLayers = {"direct", "indirect", "normal",
                                                    "depth",  "albedo",   "object"};
   return kLayers;
 }
 
+bool isFrameLayer(const std::string& name) {
+  return std::ranges::find(frameLayers(), name) != frameLayers().end();
+}
+
 Image lightOf(const LayeredImage& frame, const std::string& layer) {
-  const Layer* sum = frame.find(layer);
-  const bool alpha = sum != nullptr && std::ranges::find(sum->channels, "A") != sum->channels.end();
-  const std::vector<std::string> rgb = {"R", "G", "B"}, rgba = {"R", "G", "B", "A"};
-  return frame.image(layer, alpha ? rgba : rgb, kFrame);
+  if (layer.empty()) return frame.image("", {"R", "G", "B", "A"}, kFrame);
+  return frame.image(layer, {"R", "G", "B"}, kFrame);
 }
 
 Image shownPicture(const LayeredImage& frame, const std::string& layer, const DisplayOptions& display) {

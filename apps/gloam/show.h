@@ -11,14 +11,16 @@
 
 namespace gloam::cli {
 
-/// "direct", "indirect", "normal", "depth", "albedo", "object".
-const std::vector<std::string>& shownLayers();
+/// Layers that every frame has: "direct", "indirect", "normal", "depth", "albedo", "object". Other names are images of a
+/// technique, which the renderer adds as RenderOptions::show.
+const std::vector<std::string>& frameLayers();
+bool isFrameLayer(const std::string& name);
 
-/// Ready for a display (writePng encodes). Light (`layer` empty, "direct", "indirect") is tone mapped by `display`;
-/// normals become colours, depth grey from near (white) to far, objects get a colour each.
+/// Ready for a display (writePng encodes). Light (`layer` empty, "direct", "indirect", an image of a technique) is tone
+/// mapped by `display`; normals become colours, depth grey from near (white) to far, objects get a colour each.
 Image shownPicture(const LayeredImage& frame, const std::string& layer, const DisplayOptions& display);
 
-/// The sum as R, G, B, A (or R, G, B where a frame has no alpha), or one layer of light.
+/// The numbers themselves: the sum as R, G, B, A, or a layer as R, G, B.
 Image lightOf(const LayeredImage& frame, const std::string& layer);
 
 }  // namespace gloam::cli

@@ -34,9 +34,15 @@ void addTechniqueOption(CLI::App& app, TechniqueChoice& choice, const TechniqueI
 }  // namespace
 
 void addTechniqueOptions(CLI::App& app, TechniqueChoice& choice) {
-  const auto setName = [&choice](const std::string& text) { choice.name = technique(text).name; };
   std::vector<std::string> names;
   for (const TechniqueInfo& info : techniques()) names.emplace_back(info.name);
+  const auto setName = [&choice, names](const std::string& text) {
+    if (std::ranges::find(names, text) == names.end()) {
+      throw Error("--technique",
+                  fmt::format("'{}'{}: expected {}", text, didYouMean(text, names), listed(names)));
+    }
+    choice.name = text;
+  };
   app.add_option_function<std::string>(
          "--technique", setName,
          fmt::format("way of lighting: {}; by default prt where the scene carries transfer, else irradiance",

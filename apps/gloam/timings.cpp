@@ -9,6 +9,12 @@
 
 namespace gloam::cli {
 
+void checkValidation(const Renderer& renderer) {
+  if (const int count = renderer.validationMessages(); count > 0) {
+    throw Error("GLOAM_VALIDATION", fmt::format("{} messages of the validation layer", count));
+  }
+}
+
 double quantile(std::vector<double> samples, double fraction) {
   if (samples.empty()) return 0.0;
   std::ranges::sort(samples);

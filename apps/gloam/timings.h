@@ -34,6 +34,9 @@ class Timings {
   std::size_t memory_bytes_ = 0;
 };
 
+/// With GLOAM_VALIDATION=1: throws Error where the validation layer had something to say.
+void checkValidation(const Renderer& renderer);
+
 /// The value below which the part `fraction` of the samples lies, between neighbours linearly; 0 for none.
 double quantile(std::vector<double> samples, double fraction);
 

@@ -22,7 +22,7 @@ class Bake(CliTest):
         self.assertEqual((result["order"], result["bounces"], result["directions"]), (3, 2, 256))
         transfer = self.succeed_json("info", "a.glb")["transfer"]
         self.assertEqual((transfer["order"], transfer["bounces"], transfer["directions"]), (3, 2, 256))
-        self.assertEqual(transfer["vertices"], result["vertices"])
+        self.assertGreaterEqual(transfer["vertices"], result["points"])
         rendered = self.succeed_json("render", "a.glb", *SMALL, "-o", "a.exr")
         self.assertEqual(rendered["technique"], "prt")
         self.assertGreater(self.means("a.exr", "indirect")["R"], 0)
@@ -54,7 +54,7 @@ class Bake(CliTest):
     def test_the_estimate_is_near_the_file(self):
         expected = self.succeed_json("bake", SCENE, *QUICK, "--estimate")["file_bytes"]
         size = self.succeed_json("bake", SCENE, *QUICK, "-o", "a.glb")["file_bytes"]
-        self.assertTrue(0.7 < size / expected < 1.4, (size, expected))
+        self.assertTrue(0.5 < size / expected <= 1.05, (size, expected))
 
     def test_threads_do_not_change_the_bits(self):
         for name, threads in ("a.glb", 1), ("b.glb", 2):
