@@ -20,6 +20,7 @@ using std::pow;
 #define inout
 #include "math/brdf.glsl"
 #include "math/sh_product.glsl"
+#include "math/sh_product_high.glsl"
 #undef out
 #undef inout
 

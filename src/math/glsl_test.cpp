@@ -109,13 +109,17 @@ TEST(Glsl, MultipliesFunctions) {
     }
 }
 
-TEST(Glsl, ProductFileIsWhatTheGeneratorWrites) {
-  const std::string path =
-      std::string(__FILE__).substr(0, std::string(__FILE__).rfind('/')) + "/sh_product.glsl";
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_TRUE(text.str() == sh::productGlsl()) << path << " is out of date: sh_write_glsl " << path;
+TEST(Glsl, ProductFilesAreWhatTheGeneratorWrites) {
+  const std::string folder = std::string(__FILE__).substr(0, std::string(__FILE__).rfind('/'));
+  const auto contents = [&folder](const char* name) {
+    std::stringstream text;
+    text << std::ifstream(folder + name).rdbuf();
+    return text.str();
+  };
+  EXPECT_TRUE(contents("/sh_product.glsl") == sh::productGlsl(2, 4))
+      << "out of date: sh_write_glsl " << folder;
+  EXPECT_TRUE(contents("/sh_product_high.glsl") == sh::productGlsl(5, 6))
+      << "out of date: sh_write_glsl " << folder;
 }
 
 TEST(Glsl, KnowsTheMaterial) {
