@@ -85,9 +85,12 @@ void BindingCheck::buffer() const {
     fail("the shader's block has " + std::to_string(binding.block_bytes) + " bytes, buffer '" + ref.name() +
          "' only " + std::to_string(ref.bytes()));
   }
-  if (ref.bytes() > device.limits().max_storage_bytes) {
-    fail("buffer '" + ref.name() + "' has " + std::to_string(ref.bytes()) + " bytes; at most " +
-         std::to_string(device.limits().max_storage_bytes) + " are bound at once");
+  const Limits& limits = device.limits();
+  const std::uint64_t most =
+      binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? limits.max_uniform_bytes : limits.max_storage_bytes;
+  if (ref.bytes() > most) {
+    fail("buffer '" + ref.name() + "' has " + std::to_string(ref.bytes()) + " bytes; as " +
+         kindName(binding.type) + " at most " + std::to_string(most) + " are bound at once");
   }
   if (ref.offset() % 256 != 0) {
     fail("buffer '" + ref.name() + "' is bound at " + std::to_string(ref.offset()) +

@@ -34,6 +34,7 @@ struct Features {
 
 struct Limits {
   std::uint64_t max_storage_bytes = 0;  ///< one storage buffer binding: 128 MiB on Mesa's software driver
+  std::uint64_t max_uniform_bytes = 0;
   std::uint32_t max_push_bytes = 128;
   std::uint32_t max_image_size = 0;
   std::uint32_t max_group_count[3] = {};

@@ -254,6 +254,7 @@ Limits readLimits(const InstanceFunctions& functions, VkPhysicalDevice device, s
   const VkPhysicalDeviceLimits& from = properties.properties.limits;
   Limits limits;
   limits.max_storage_bytes = from.maxStorageBufferRange;
+  limits.max_uniform_bytes = from.maxUniformBufferRange;
   limits.max_push_bytes = from.maxPushConstantsSize;
   limits.max_image_size = from.maxImageDimension2D;
   limits.max_shared_bytes = from.maxComputeSharedMemorySize;

@@ -45,20 +45,6 @@ VkImageSubresourceLayers layersOf(const ImageRef& ref) {
           static_cast<std::uint32_t>(range.layer), static_cast<std::uint32_t>(range.layers)};
 }
 
-/// Calls a function with the state of each part that a touch covers.
-template <class F>
-void forEachPart(const Touch& touch, F&& function) {
-  if (touch.buffer) return function(touch.buffer.buffer().state().parts[0]);
-  const ImageRange& range = touch.image.range();
-  const auto mips = static_cast<std::size_t>(touch.image.image().desc().mips);
-  auto& parts = touch.image.image().state().parts;
-  for (int layer = range.layer; layer < range.layer + range.layers; ++layer) {
-    for (int mip = range.mip; mip < range.mip + range.mips; ++mip) {
-      function(parts[static_cast<std::size_t>(layer) * mips + static_cast<std::size_t>(mip)]);
-    }
-  }
-}
-
 VkOffset3D cornerOf(const ImageRef& ref) {
   return {ref.width(), ref.height(), ref.depth()};
 }
@@ -89,8 +75,6 @@ struct FrameGraph::State {
                    std::function<void(VkCommandBuffer)> commands) {
     add(TransferPass{name, std::move(touches), std::move(commands)});
   }
-  bool isWritten(const Touch& touch) const;
-  void markWritten(const Touch& touch) const;
   std::vector<std::vector<Touch>> check(std::vector<std::vector<bool>>& loads);
   VkCommandBuffer open();
   void prepareQueries(VkCommandBuffer commands);
@@ -318,20 +302,6 @@ void FrameGraph::leaveIn(ImageRef image, VkImageLayout layout) {
 
 // ---- Running -------------------------------------------------------------------------------------------------------
 
-bool FrameGraph::State::isWritten(const Touch& touch) const {
-  bool written = true;
-  forEachPart(touch, [&](const PartState& part) {
-    written &= part.written_in_frame == frame || part.written_in_frame == PartState::kAlways;
-  });
-  return written;
-}
-
-void FrameGraph::State::markWritten(const Touch& touch) const {
-  forEachPart(touch, [&](PartState& part) {
-    if (part.written_in_frame != PartState::kAlways) part.written_in_frame = frame;
-  });
-}
-
 /// All passes, before any of them runs: names, kinds and sizes; and that nothing is read that this frame has not made.
 std::vector<std::vector<Touch>> FrameGraph::State::check(std::vector<std::vector<bool>>& loads) {
   std::vector<std::vector<Touch>> touches;
@@ -339,16 +309,16 @@ std::vector<std::vector<Touch>> FrameGraph::State::check(std::vector<std::vector
     touches.push_back(checkPass(device, pass));
     auto& load = loads.emplace_back();
     if (const auto* raster = std::get_if<RasterPass>(&pass)) {
-      for (const auto& target : raster->colors) load.push_back(isWritten({{}, target.image}));
+      for (const auto& target : raster->colors) load.push_back(isWritten({{}, target.image}, frame));
     }
     for (const auto& touch : touches.back()) {
-      if (!touch.reads || isWritten(touch)) continue;
+      if (!touch.reads || isWritten(touch, frame)) continue;
       const std::string& name = touch.buffer ? touch.buffer.name() : touch.image.name();
       throw Error("pass '" + nameOf(pass) + "'", "reads '" + name + "' (" + touch.binding +
                                                      "), which no pass before it has written in this frame");
     }
     for (const auto& touch : touches.back()) {
-      if (touch.writes && !isWritten(touch)) markWritten(touch);
+      if (touch.writes && !isWritten(touch, frame)) markWritten(touch, frame);
     }
   }
   return touches;

@@ -22,9 +22,14 @@ std::string listNames(const Interface& interface) {
 
 void checkNames(const std::string& place, const Interface& interface, const Bindings& bindings) {
   for (const auto& resource : bindings.resources) {
-    if (resource.name.empty() || interface.find(resource.name) != nullptr) continue;
-    throw Error(place, "binding '" + resource.name + "': " + interface.name +
-                           " has no such binding or never uses it; its bindings: " + listNames(interface));
+    if (resource.name.empty()) continue;
+    if (interface.find(resource.name) == nullptr) {
+      throw Error(place, "binding '" + resource.name + "': " + interface.name +
+                             " has no such binding or never uses it; its bindings: " + listNames(interface));
+    }
+    if (lookUp(resource.name, nullptr, bindings) != &resource) {
+      throw Error(place, "binding '" + resource.name + "' was given twice");
+    }
   }
 }
 
@@ -272,10 +277,38 @@ std::vector<Touch> checkHost(const HostPass& pass) {
   return touches;
 }
 
+/// Calls a function with the state of each part that a touch covers.
+template <class F>
+void forEachPart(const Touch& touch, F&& function) {
+  if (touch.buffer) return function(touch.buffer.buffer().state().parts[0]);
+  const ImageRange& range = touch.image.range();
+  const auto mips = static_cast<std::size_t>(touch.image.image().desc().mips);
+  auto& parts = touch.image.image().state().parts;
+  for (int layer = range.layer; layer < range.layer + range.layers; ++layer) {
+    for (int mip = range.mip; mip < range.mip + range.mips; ++mip) {
+      function(parts[static_cast<std::size_t>(layer) * mips + static_cast<std::size_t>(mip)]);
+    }
+  }
+}
+
 }  // namespace
 
 const std::string& nameOf(const Pass& pass) {
   return std::visit([](const auto& one) -> const std::string& { return one.name; }, pass);
+}
+
+bool isWritten(const Touch& touch, std::uint64_t frame) {
+  bool written = true;
+  forEachPart(touch, [&](const PartState& part) {
+    written &= part.written_in_frame == frame || part.written_in_frame == PartState::kAlways;
+  });
+  return written;
+}
+
+void markWritten(const Touch& touch, std::uint64_t frame) {
+  forEachPart(touch, [&](PartState& part) {
+    if (part.written_in_frame != PartState::kAlways) part.written_in_frame = frame;
+  });
 }
 
 VkImageLayout layoutFor(VkDescriptorType type, const Image& image) {

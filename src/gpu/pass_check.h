@@ -36,6 +36,10 @@ const std::string& nameOf(const Pass& pass);
 /// the binding.
 std::vector<Touch> checkPass(const Device& device, const Pass& pass);
 
+/// Whether all that is touched holds data from elsewhere or from this frame.
+bool isWritten(const Touch& touch, std::uint64_t frame);
+void markWritten(const Touch& touch, std::uint64_t frame);
+
 /// The layout in which a shader sees an image.
 VkImageLayout layoutFor(VkDescriptorType type, const Image& image);
 /// What stands behind a name: the draw's own, else the pass's; null if neither has it.
