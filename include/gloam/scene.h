@@ -201,6 +201,11 @@ struct BuiltinScene {
 };
 const std::vector<BuiltinScene>& builtinScenes();
 
+/// The same scene with a mesh of its own for every rigid one that is placed: what is baked into a mesh holds for one
+/// place only. EXT_mesh_gpu_instancing becomes nodes; meshes that no shown node places are left out. Skinned and morphed
+/// meshes stay shared.
+Scene makeInstancesUnique(const Scene& scene);
+
 struct WriteOptions {
   bool half_float = false;  ///< store transfer as 16-bit floats
 };

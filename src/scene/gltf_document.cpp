@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 #include "image/limits.h"
 #include "scene/gltf_accessors.h"
@@ -19,13 +19,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 13> kRead = {
+constexpr std::string_view kRead[] = {
     "KHR_lights_punctual",
     "KHR_texture_transform",
     "KHR_mesh_quantization",
     "KHR_draco_mesh_compression",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
     "KHR_materials_unlit",
     "KHR_node_visibility",
     "EXT_meshopt_compression",
@@ -34,10 +35,10 @@ constexpr std::array<std::string_view, 13> kRead = {
     "GLOAM_precomputed_transfer",
     "KHR_materials_variants"};  // the default variant is shown
 /// They say nothing about the picture.
-constexpr std::array<std::string_view, 3> kSilent = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_texture_basisu"};
+constexpr std::string_view kSilent[] = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_texture_basisu"};
 
 bool contains(const auto& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
 }
 
 /// The readers that follow recurse over JSON; a file must not choose how deep.

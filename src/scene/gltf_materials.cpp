@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Materials and textures (glTF 2.0 specification, sections 3.8 and 3.9; KHR_texture_transform,
-// KHR_materials_emissive_strength).
+// KHR_materials_emissive_strength, KHR_materials_specular).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -99,6 +99,8 @@ void readMaterial(GltfReading& reading, std::size_t index) {
   material.double_sided = source.doubleSided;
   if (source.alphaMode == "BLEND")
     document.warn(fmt::format("material '{}': alphaMode BLEND is drawn opaque", oneLine(material.name)));
+  if (const Json* specular = GltfDocument::extension(json, "KHR_materials_specular"))
+    material.specular = specular->value("specularFactor", 1.0f);
   if (const Json* extension = GltfDocument::extension(json, "KHR_materials_pbrSpecularGlossiness"))
     convertSpecularGlossiness(reading, *extension, material,
                               where + ".extensions.KHR_materials_pbrSpecularGlossiness");

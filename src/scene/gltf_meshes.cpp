@@ -12,6 +12,7 @@
 #include "image/limits.h"
 #include "scene/gltf_compression.h"
 #include "scene/gltf_parts.h"
+#include "scene/gltf_transfer.h"
 #include "scene/mesh_repair.h"
 
 namespace gloam {
@@ -39,6 +40,7 @@ class PrimitiveReader {
     keepUsedVertices(mesh);
     readAttributes(mesh);
     checkPositions(mesh, used_, document_.place(), where_);
+    readBakedTransfer(mesh);
     readSkinning(mesh);
     readMorphTargets(mesh);
     return true;
@@ -159,6 +161,23 @@ class PrimitiveReader {
     }
   }
 
+  /// It was baked for the file's vertices, also those that no triangle uses.
+  void readBakedTransfer(Mesh& mesh) {
+    const Json* extension = GltfDocument::extension(json_, kTransferExtension);
+    if (!extension) return;
+    const std::string field = where_ + ".extensions." + kTransferExtension;
+    if (used_.size() == position_.count) {
+      mesh.transfer = readTransfer(reading_.accessors, *extension, mesh.positions, corners_, field);
+      return;
+    }
+    document_.budget.charge(position_.count, sizeof(glm::vec3) + sizeof(std::uint32_t), field);
+    std::vector<std::uint32_t> all(position_.count);
+    std::iota(all.begin(), all.end(), 0u);
+    const auto transfer =
+        readTransfer(reading_.accessors, *extension, gather<glm::vec3>(position_, all), corners_, field);
+    mesh.transfer = transferOfVertices(*transfer, used_);
+  }
+
   void readSkinning(Mesh& mesh) {
     constexpr int kMostSets = 4;
     std::vector<AccessorView> joints, weights;
@@ -256,9 +275,7 @@ void readPrimitive(GltfReading& reading, std::size_t mesh_index, std::size_t pri
   mesh.material = primitive.material >= 0 ? primitive.material : defaultMaterial(reading);
   if (!PrimitiveReader(reading, primitive, json, where).read(mesh)) return;
   const Material& material = reading.scene.materials[static_cast<std::size_t>(mesh.material)];
-  Warnings remarks;
-  const bool visible = finishMesh(mesh, material, kFlat, where, remarks);
-  for (const std::string& line : remarks) document.warn(line);
+  const bool visible = finishMesh(mesh, material, kFlat, where, reading.repairs);
   if (!visible) return;
   reading.meshes_of[mesh_index].push_back(static_cast<int>(reading.scene.meshes.size()));
   reading.scene.meshes.push_back(std::move(mesh));
@@ -275,6 +292,7 @@ void readMeshes(GltfReading& reading) {
       reading.step(0.3 + 0.6 * static_cast<double>(m) / static_cast<double>(meshes.size()), "reading meshes");
       readPrimitive(reading, m, p, not_triangles);
     }
+  for (const std::string& line : reading.repairs.lines()) reading.document.warn(line);
   if (not_triangles)
     reading.document.warn(fmt::format("{} primitives are points or lines and are left out", not_triangles));
 }

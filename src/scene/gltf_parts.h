@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/gltf_accessors.h"
+#include "scene/mesh_repair.h"
 
 namespace gloam {
 
@@ -23,8 +24,10 @@ struct GltfReading {
   const Progress& progress;
   Scene scene;
   std::vector<std::vector<int>> meshes_of;  ///< Scene::meshes that came from each mesh of the file
-  int default_material = kNone;             ///< for primitives without one
-  std::map<int, int> texture_of_image;      ///< Scene::textures by images[] of the file
+  MeshRepairs repairs;
+  int default_material = kNone;         ///< for primitives without one
+  std::vector<int> light_of;            ///< Scene::lights for each light of the file; kNone for unknown kinds
+  std::map<int, int> texture_of_image;  ///< Scene::textures by images[] of the file
 
   /// Progress, and the place where reading can be interrupted.
   void step(double fraction, const char* what) const {
@@ -49,6 +52,7 @@ void readCameras(GltfReading& reading);
 void readLights(GltfReading& reading);
 /// EXT_lights_image_based of the shown scene: irradiance coefficients turned back into radiance.
 void readImageLight(GltfReading& reading);
+void readNamedSky(GltfReading& reading);      ///< scenes[].extras.gloam_environment
 void readAnimations(GltfReading& reading);
 
 /// The node's name, for messages and scenes alike.

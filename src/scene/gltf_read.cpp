@@ -33,6 +33,7 @@ Scene readGltf(const std::filesystem::path& path, const Progress& progress) {
   readLights(reading);
   readNodes(reading);
   readAnimations(reading);
+  readNamedSky(reading);
   readImageLight(reading);
   showMeshesWithoutNodes(reading);
   reading.scene.warnings = reading.document.takeWarnings();

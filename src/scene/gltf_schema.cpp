@@ -121,7 +121,7 @@ constexpr Field kOrthographic[] = {
 };
 constexpr Field kLight[] = {
     {"name", Kind::kString},
-    {"type", Kind::kChoice, "directional point spot", kRequired},
+    {"type", Kind::kString, "", kRequired},
     {"color", Kind::kNumbers, "", false, 3},
     {"intensity", Kind::kNumber, "", false, 0, kUnbounded},
     {"range", Kind::kNumber, "", false, 0, kUnbounded},
@@ -196,9 +196,11 @@ constexpr Field kMetallicRoughness[] = {
 constexpr Field kMaterialExtensions[] = {
     {"KHR_materials_emissive_strength", Kind::kObject, "emissiveStrength"},
     {"KHR_materials_pbrSpecularGlossiness", Kind::kObject, "specularGlossiness"},
+    {"KHR_materials_specular", Kind::kObject, "specular"},
     {"KHR_materials_unlit", Kind::kAny},
 };
 constexpr Field kEmissiveStrength[] = {{"emissiveStrength", Kind::kNumber, "", false, 0, kUnbounded}};
+constexpr Field kSpecular[] = {{"specularFactor", Kind::kNumber, "", false, 0, 1}};
 constexpr Field kSpecularGlossiness[] = {
     {"diffuseFactor", Kind::kNumbers, "", false, 4},
     {"diffuseTexture", Kind::kObject, "textureInfo"},
@@ -253,6 +255,7 @@ constexpr Field kScene[] = {
     {"name", Kind::kString},
     {"nodes", Kind::kIndices, "nodes"},
     {"extensions", Kind::kObject, "scene.extensions"},
+    {"extras", Kind::kAny},
 };
 constexpr Field kSceneExtensions[] = {{"EXT_lights_image_based", Kind::kObject, "sceneLight"}};
 constexpr Field kSceneLight[] = {{"light", Kind::kIndex, "imageLights", kRequired}};
@@ -294,6 +297,7 @@ constexpr ObjectSchema kObjects[] = {
     {"metallicRoughness", kMetallicRoughness},
     {"material.extensions", kMaterialExtensions},
     {"emissiveStrength", kEmissiveStrength},
+    {"specular", kSpecular},
     {"specularGlossiness", kSpecularGlossiness},
     {"mesh", kMesh},
     {"primitive", kPrimitive},

@@ -19,7 +19,7 @@ void fields(Archive& a, Texture& v) {
 }
 template <typename Archive>
 void fields(Archive& a, Material& v) {
-  a(v.name, v.base_color, v.metallic, v.roughness, v.emission, v.normal_scale, v.occlusion_strength,
+  a(v.name, v.base_color, v.metallic, v.roughness, v.specular, v.emission, v.normal_scale, v.occlusion_strength,
     v.alpha_mask, v.alpha_cutoff, v.double_sided, v.base_color_map, v.metallic_roughness_map, v.normal_map,
     v.occlusion_map, v.emission_map);
 }

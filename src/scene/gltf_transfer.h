@@ -1,0 +1,41 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// GLOAM_precomputed_transfer, our glTF extension of a primitive: baked transfer in ordinary accessors
+// (docs/formats/GLOAM_precomputed_transfer.md).
+#pragma once
+
+#include <gloam/scene.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "scene/glb_builder.h"
+#include "scene/gltf_accessors.h"
+
+namespace gloam {
+
+inline constexpr const char* kTransferExtension = "GLOAM_precomputed_transfer";
+
+/// CRC-32 (as in zlib and PNG) of a primitive's geometry: all positions as little-endian floats x, y, z, then all indices
+/// as little-endian 32-bit numbers. Eight hexadecimal digits.
+std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+
+/// The extension's object; its data goes into the builder as accessors. Half floats clamp at 65504.
+nlohmann::json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, GlbBuilder& builder);
+
+/// Reads the extension's object for a primitive with that geometry (all of the file's vertices, triangles' corners as they
+/// stand in the file). `where` is the object's JSON path. Throws Error that names the field: a version that is not known, a
+/// missing accessor, one of another type or count, a value that is not finite, transfer of another geometry.
+std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const nlohmann::json& extension,
+                                             std::span<const glm::vec3> positions,
+                                             std::span<const std::uint32_t> indices,
+                                             const std::string& where);
+
+/// The transfer of some vertices, in that order.
+std::shared_ptr<const Transfer> transferOfVertices(const Transfer& transfer,
+                                                   std::span<const std::uint32_t> vertices);
+
+}  // namespace gloam

@@ -1,0 +1,34 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The parts of a Scene on their way into a .glb. Each returns what its name says or fills the builder's arrays.
+#pragma once
+
+#include <gloam/scene.h>
+
+#include <vector>
+
+#include "scene/glb_builder.h"
+
+namespace gloam {
+
+/// Textures, samplers, images and materials; materials keep their indices.
+void writeMaterials(const Scene& scene, GlbBuilder& builder);
+
+/// glTF's meshes, each a list of our meshes (its primitives), in the order of their first use.
+struct MeshGroups {
+  std::vector<std::vector<int>> groups;
+  int of(const std::vector<int>& meshes) const;  ///< index of the group with exactly these
+};
+MeshGroups groupMeshes(const Scene& scene);
+void writeMeshes(const Scene& scene, const MeshGroups& groups, const WriteOptions& options,
+                 GlbBuilder& builder);
+
+void writeCameras(const Scene& scene, GlbBuilder& builder);
+void writeLights(const Scene& scene, GlbBuilder& builder);
+/// Nodes keep their indices. `place` names the file in errors.
+void writeNodes(const Scene& scene, const MeshGroups& groups, const std::string& place, GlbBuilder& builder);
+void writeSkins(const Scene& scene, GlbBuilder& builder);
+void writeAnimations(const Scene& scene, GlbBuilder& builder);
+
+}  // namespace gloam
