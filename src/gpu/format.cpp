@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <string>
@@ -172,7 +173,7 @@ std::vector<float> floatsFromPixels(VkFormat format, std::span<const std::byte> 
       continue;
     }
     for (int c = 0; c < info.channels; ++c) {
-      to[c] = readChannel(from + c * channel_bytes, channel_bytes, info.numbers);
+      to[c] = readChannel(from + std::ptrdiff_t{c} * channel_bytes, channel_bytes, info.numbers);
     }
     if (storedBlueFirst(format)) std::swap(to[0], to[2]);
   }
@@ -196,7 +197,7 @@ std::vector<std::byte> pixelsFromFloats(VkFormat format, std::span<const float> 
     }
     for (int c = 0; c < info.channels; ++c) {
       const int source = storedBlueFirst(format) && c != 3 ? 2 - c : c;
-      writeChannel(to + c * channel_bytes, channel_bytes, info.numbers, from[source]);
+      writeChannel(to + std::ptrdiff_t{c} * channel_bytes, channel_bytes, info.numbers, from[source]);
     }
   }
   return pixels;
