@@ -28,18 +28,18 @@ void shEvaluate6(vec3 d, out float y[36]) { GLOAM_SH_BASIS_6(y, d.x, d.y, d.z) }
 #define GLOAM_SH_SCALE_BAND_1(f, factors) \
   f[1] *= factors[1]; f[2] *= factors[1]; f[3] *= factors[1];
 #define GLOAM_SH_SCALE_BAND_2(f, factors) \
-  f[4] *= factors[2]; f[5] *= factors[2]; f[6] *= factors[2]; f[7] *= factors[2]; f[8] *= \
-  factors[2];
-#define GLOAM_SH_SCALE_BAND_3(f, factors) \
-  f[9] *= factors[3]; f[10] *= factors[3]; f[11] *= factors[3]; f[12] *= factors[3]; f[13] *= \
-  factors[3]; f[14] *= factors[3]; f[15] *= factors[3];
-#define GLOAM_SH_SCALE_BAND_4(f, factors) \
-  f[16] *= factors[4]; f[17] *= factors[4]; f[18] *= factors[4]; f[19] *= factors[4]; f[20] *= \
-  factors[4]; f[21] *= factors[4]; f[22] *= factors[4]; f[23] *= factors[4]; f[24] *= factors[4];
-#define GLOAM_SH_SCALE_BAND_5(f, factors) \
-  f[25] *= factors[5]; f[26] *= factors[5]; f[27] *= factors[5]; f[28] *= factors[5]; f[29] *= \
-  factors[5]; f[30] *= factors[5]; f[31] *= factors[5]; f[32] *= factors[5]; f[33] *= factors[5]; \
-  f[34] *= factors[5]; f[35] *= factors[5];
+  f[4] *= factors[2]; f[5] *= factors[2]; f[6] *= factors[2]; f[7] *= factors[2]; f[8] *= factors[2];
+#define GLOAM_SH_SCALE_BAND_3(f, factors)                                            \
+  f[9] *= factors[3]; f[10] *= factors[3]; f[11] *= factors[3]; f[12] *= factors[3]; \
+  f[13] *= factors[3]; f[14] *= factors[3]; f[15] *= factors[3];
+#define GLOAM_SH_SCALE_BAND_4(f, factors)                                             \
+  f[16] *= factors[4]; f[17] *= factors[4]; f[18] *= factors[4]; f[19] *= factors[4]; \
+  f[20] *= factors[4]; f[21] *= factors[4]; f[22] *= factors[4]; f[23] *= factors[4]; \
+  f[24] *= factors[4];
+#define GLOAM_SH_SCALE_BAND_5(f, factors)                                             \
+  f[25] *= factors[5]; f[26] *= factors[5]; f[27] *= factors[5]; f[28] *= factors[5]; \
+  f[29] *= factors[5]; f[30] *= factors[5]; f[31] *= factors[5]; f[32] *= factors[5]; \
+  f[33] *= factors[5]; f[34] *= factors[5]; f[35] *= factors[5];
 #define GLOAM_SH_SCALE_BANDS_2(f, factors) GLOAM_SH_SCALE_BAND_0(f, factors) GLOAM_SH_SCALE_BAND_1(f, factors)
 #define GLOAM_SH_SCALE_BANDS_3(f, factors) GLOAM_SH_SCALE_BANDS_2(f, factors) GLOAM_SH_SCALE_BAND_2(f, factors)
 #define GLOAM_SH_SCALE_BANDS_4(f, factors) GLOAM_SH_SCALE_BANDS_3(f, factors) GLOAM_SH_SCALE_BAND_3(f, factors)
@@ -85,16 +85,16 @@ void shConvolveCosine6(inout vec3 f[36]) { GLOAM_SH_SCALE_BANDS_6(f, kShClampedC
   (light[1] * y[1] + light[2] * y[2] + light[3] * y[3])
 #define GLOAM_SH_BAND_2(light, y) \
   (light[4] * y[4] + light[5] * y[5] + light[6] * y[6] + light[7] * y[7] + light[8] * y[8])
-#define GLOAM_SH_BAND_3(light, y) \
+#define GLOAM_SH_BAND_3(light, y)                                                                  \
   (light[9] * y[9] + light[10] * y[10] + light[11] * y[11] + light[12] * y[12] + light[13] * y[13] \
   + light[14] * y[14] + light[15] * y[15])
-#define GLOAM_SH_BAND_4(light, y) \
-  (light[16] * y[16] + light[17] * y[17] + light[18] * y[18] + light[19] * y[19] + light[20] * \
-  y[20] + light[21] * y[21] + light[22] * y[22] + light[23] * y[23] + light[24] * y[24])
-#define GLOAM_SH_BAND_5(light, y) \
-  (light[25] * y[25] + light[26] * y[26] + light[27] * y[27] + light[28] * y[28] + light[29] * \
-  y[29] + light[30] * y[30] + light[31] * y[31] + light[32] * y[32] + light[33] * y[33] + \
-  light[34] * y[34] + light[35] * y[35])
+#define GLOAM_SH_BAND_4(light, y)                                                                    \
+  (light[16] * y[16] + light[17] * y[17] + light[18] * y[18] + light[19] * y[19] + light[20] * y[20] \
+  + light[21] * y[21] + light[22] * y[22] + light[23] * y[23] + light[24] * y[24])
+#define GLOAM_SH_BAND_5(light, y)                                                                     \
+  (light[25] * y[25] + light[26] * y[26] + light[27] * y[27] + light[28] * y[28] + light[29] * y[29]  \
+  + light[30] * y[30] + light[31] * y[31] + light[32] * y[32] + light[33] * y[33] + light[34] * y[34] \
+  + light[35] * y[35])
 #define GLOAM_SH_BANDS_2(light, y, factors) \
   factors[0] * GLOAM_SH_BAND_0(light, y) + factors[1] * GLOAM_SH_BAND_1(light, y)
 #define GLOAM_SH_BANDS_3(light, y, factors) \

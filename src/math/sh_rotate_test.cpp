@@ -1,5 +1,6 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gloam/sh.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST(ShRotation, EqualsReprojection) {
     const auto want = reference::rotate(glm::dmat3(matrix), reference::toVector(6, f.c));
     worst = std::max(worst, reference::relativeError(rotate(matrix, f), want));
   }
-  RecordProperty("worst_relative_error", std::to_string(worst));
+  RecordProperty("worst_relative_error", fmt::format("{:.1e}", worst));
   EXPECT_LT(worst, 1e-6);
 }
 
@@ -95,7 +96,7 @@ TEST(ShRotation, ManyEqualReprojectionOnEveryInstructionSet) {
         EXPECT_EQ(out[part], -7.0f) << "written past the batch";
       }
     }
-    RecordProperty(std::string("worst_relative_error_") + name, std::to_string(worst));
+    RecordProperty(std::string("worst_relative_error_") + name, fmt::format("{:.1e}", worst));
     EXPECT_LT(worst, 2e-6);
   });
 }

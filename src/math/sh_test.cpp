@@ -1,5 +1,6 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gloam/sh.h>
 #include <gtest/gtest.h>
 
@@ -93,7 +94,7 @@ TEST(ShBasis, ManyAreAccurate) {
       for (std::size_t i = 0; i < 36; ++i) one[i] = out[i * stride + k];
       worst = std::max(worst, reference::relativeError(one, reference::evaluate(6, {x[k], y[k], z[k]})));
     }
-    RecordProperty(std::string("worst_relative_error_") + name, std::to_string(worst));
+    RecordProperty(std::string("worst_relative_error_") + name, fmt::format("{:.1e}", worst));
     EXPECT_LT(worst, 1e-6);
   });
 }
