@@ -22,30 +22,38 @@ struct BakeOptions {
   int order = 5;           ///< 3 to 6
   int bounces = 2;         ///< for kInterreflected, 1 to 64
   int directions = 10000;  ///< a vertex in the first pass, 256 to 65536; rounded up to whole tiles of 16
-  int bounce_directions = 2048;  ///< a prefix of the same set
-  int threads = 0;         ///< 0: all cores. The result does not depend on it
-  float time_s = 0.0f;     ///< instant at which the scene is posed
-  std::filesystem::path checkpoint;  ///< finished work is kept here and taken up again; empty: none. Removed at the end
+  int bounce_directions =
+      2048;             ///< of the same set, 64 to 65536; the even subset that is nearest in size is taken
+  int threads = 0;      ///< 0: all cores. The result does not depend on it
+  float time_s = 0.0f;  ///< instant at which the scene is posed
+  /// Finished work is kept here (when stopped, and every 20 s against being killed) and taken up again by the same bake of
+  /// the same scene, with the same bits as without interruption. Any other file of that name is an Error: it is neither
+  /// used nor overwritten. Empty: none. Removed at the end.
+  std::filesystem::path checkpoint;
 };
 
-/// What a bake will take, before it starts.
+/// What a bake will take at most, before it starts.
 struct BakeEstimate {
   std::size_t vertices = 0, triangles = 0;
   std::size_t memory_bytes = 0, file_bytes = 0;
 };
 BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options);
 
+/// What it took, without what a checkpoint brought along.
 struct BakeReport {
-  std::size_t vertices = 0;
-  std::size_t rays = 0;        ///< of the first pass
-  double first_pass_s = 0.0;   ///< wall clock
+  std::size_t vertices = 0;     ///< points baked: vertices at one place with one normal are one
+  std::size_t rays = 0;         ///< of the first pass
+  std::size_t bounce_rays = 0;  ///< of all bounces together
+  double first_pass_s = 0.0;    ///< wall clock
   double bounces_s = 0.0;
   bool resumed = false;
 };
 
-/// Bakes all rigid meshes of the scene as one object in its pose: every mesh shadows and lights every other. Instances
-/// are made unique first, since each has its own transfer. Same bits for any number of threads. Throws Error for a
-/// scene without triangles or with skinned meshes only, Interrupted when asked to stop (the checkpoint stays).
+/// Bakes all rigid meshes of the scene as one object in its pose: every mesh shadows and lights every other. Skinned and
+/// morphed ones are left out. Instances are made unique first, since each has its own transfer. Transfer is that of the
+/// side that a vertex's normal looks at; backs of surfaces block light and send none on. Same bits for any number of
+/// threads. Throws Error for options out of range and for a scene without rigid triangles, Interrupted when asked to stop
+/// (the checkpoint stays).
 Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                    BakeReport* report = nullptr);
 

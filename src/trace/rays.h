@@ -31,6 +31,12 @@ struct Hit {
   explicit operator bool() const { return instance != kNoHit; }
 };
 
+/// How far off a triangle a ray has to start so that rounding does not let it meet that triangle again: 32 units in the last
+/// place of the largest coordinate of its corners (some micrometres in a room). The origin is moved by this much along the
+/// geometric normal, to the side into which the ray leaves. No t_near: in grazing directions it would step over thin gaps.
+/// Large triangles elsewhere do not matter: rays are tested relative to their origin.
+float surfaceOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 /// Sixteen rays, laid out so that the tracing library takes them as they lie. A lane that was found occluded has
 /// t_far = -infinity afterwards; whoever uses the packet again sets t_far again. Nothing else is changed.
 struct alignas(64) RayPacket {

@@ -59,7 +59,8 @@ TEST(Surface, WrapsAndTransforms) {
   slot.texture_from_uv[2] = {0.5f, 0.0f, 1.0f};  // moves u by half
   expectNear(at(0.25f, 0.25f), {1, 0, 0});
   slot.wrap_u = Wrap::kRepeat;
-  expectNear(at(std::numeric_limits<float>::quiet_NaN(), 0.25f), at(-0.5f, 0.25f));  // as if it were moved to 0
+  expectNear(at(std::numeric_limits<float>::quiet_NaN(), 0.25f),
+             at(-0.5f, 0.0f));  // as if it were moved to (0, 0)
 }
 
 TEST(Surface, AlbedoIsMapTimesFactorTimesVertexColorLessMetal) {

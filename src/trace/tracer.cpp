@@ -27,6 +27,11 @@ struct Tracer::Embree {
   RTCScene scene = nullptr;
   std::vector<AlphaMask> alpha_masks;  // one an instance, never moved: filters point into it
   std::vector<std::uint8_t> mirrored;  // one an instance
+  struct Buffers {
+    const glm::vec3* positions = nullptr;
+    const glm::uvec3* triangles = nullptr;
+  };
+  std::vector<Buffers> buffers;  // one an instance; the geometry owns them
   std::atomic<std::int64_t> memory_bytes{0};
 
   ~Embree() {
@@ -57,28 +62,30 @@ bool monitorBuild(void* data, double fraction) {
 }
 
 // The arrays are written anew rather than shared: the tracing library wants world space and padding at the end.
-void fillBuffers(RTCGeometry geometry, const Mesh& mesh, const Instance& instance) {
+template <class Buffers>
+Buffers fillBuffers(RTCGeometry geometry, const Mesh& mesh, const Instance& instance) {
   const std::size_t vertices = mesh.vertexCount();
-  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
-  auto* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(std::uint32_t), mesh.triangleCount());
+  auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices));
+  auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangleCount()));
   if (!positions || !indices)
     throw Error("ray hierarchy", "no memory for the triangles of mesh '" + mesh.name + "'");
   for (std::size_t i = 0; i < vertices; ++i) {
-    const glm::vec3 p = instance.deformed()
-                            ? instance.deformed_positions[i]
-                            : glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[i], 1.0f));
-    std::memcpy(positions + 3 * i, &p, sizeof p);
+    positions[i] = instance.deformed()
+                       ? instance.deformed_positions[i]
+                       : glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[i], 1.0f));
   }
-  std::memcpy(indices, mesh.indices.data(), mesh.triangleCount() * 3 * sizeof(std::uint32_t));
+  std::memcpy(indices, mesh.indices.data(), mesh.triangleCount() * sizeof(glm::uvec3));
+  return {positions, indices};
 }
 
-RTCGeometry makeGeometry(RTCDevice device, const Mesh& mesh, const Instance& instance) {
+template <class Buffers>
+RTCGeometry makeGeometry(RTCDevice device, const Mesh& mesh, const Instance& instance, Buffers& buffers) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!geometry) throw Error("ray hierarchy", "no memory");
   try {
-    fillBuffers(geometry, mesh, instance);
+    buffers = fillBuffers<Buffers>(geometry, mesh, instance);
   } catch (...) {
     rtcReleaseGeometry(geometry);
     throw;
@@ -99,19 +106,6 @@ void checkBuilt(RTCDevice device, std::size_t triangles) {
   }
 }
 
-float offsetFor(RTCScene scene) {
-  RTCBounds bounds{};
-  rtcGetSceneBounds(scene, &bounds);
-  const float lower[] = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
-  const float upper[] = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
-  float largest = 0.0f;
-  for (int i = 0; i < 3; ++i) {
-    if (lower[i] > upper[i]) continue;  // an empty scene's bounds are inside out
-    largest = std::max({largest, std::abs(lower[i]), std::abs(upper[i]), upper[i] - lower[i]});
-  }
-  return largest * 0x1p-18f;
-}
-
 glm::vec3 unit(const glm::vec3& v) {
   const float length = glm::length(v);
   return length > 0.0f ? v / length : v;
@@ -130,11 +124,12 @@ Tracer::Tracer(const Scene& scene, const PosedScene& posed, const TracerOptions&
   rtcSetSceneFlags(e.scene, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   e.alpha_masks.resize(posed.instances.size());
   e.mirrored.resize(posed.instances.size());
+  e.buffers.resize(posed.instances.size());
   for (std::size_t i = 0; i < posed.instances.size(); ++i) {
     const Instance& instance = posed.instances[i];
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     if (mesh.indices.empty() || (options.rigid_only && instance.deformed())) continue;
-    RTCGeometry geometry = makeGeometry(e.device, mesh, instance);
+    RTCGeometry geometry = makeGeometry(e.device, mesh, instance, e.buffers[i]);
     e.mirrored[i] = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f;
     e.alpha_masks[i] = {&scene, &mesh};
     if (hasHoles(scene, mesh)) setAlphaFilter(geometry, e.alpha_masks[i]);
@@ -152,7 +147,6 @@ Tracer::Tracer(const Scene& scene, const PosedScene& posed, const TracerOptions&
   }
   rtcSetSceneProgressMonitorFunction(e.scene, nullptr, nullptr);
   checkBuilt(e.device, triangle_count_);
-  surface_offset_ = offsetFor(e.scene);
 }
 
 Tracer::~Tracer() = default;
@@ -161,6 +155,12 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 std::size_t Tracer::memoryBytes() const {
   return std::size_t(std::max<std::int64_t>(0, embree_->memory_bytes.load()));
+}
+
+float Tracer::surfaceOffset(const Hit& hit) const {
+  const auto& [positions, triangles] = embree_->buffers[std::size_t(hit.instance)];
+  const glm::uvec3& t = triangles[hit.triangle];
+  return trace::surfaceOffset(positions[t.x], positions[t.y], positions[t.z]);
 }
 
 Hit Tracer::closest(const Ray& ray) const {

@@ -42,11 +42,8 @@ class Tracer {
   std::size_t triangleCount() const { return triangle_count_; }
   std::size_t memoryBytes() const;  ///< what the hierarchy holds now
 
-  /// How far off a surface a ray has to start so that rounding does not let it meet that surface again: 32 units in the
-  /// last place of the largest coordinate of the scene, and never less than of its extent. Callers move the origin by this
-  /// much along the geometric normal, to the side into which the ray leaves; no t_near, which would step over thin gaps in
-  /// grazing directions. It is some micrometres in a room: nothing that is modelled leaks.
-  float surfaceOffset() const { return surface_offset_; }
+  /// surfaceOffset (rays.h) of the triangle that was hit.
+  float surfaceOffset(const Hit& hit) const;
 
   Hit closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
@@ -59,7 +56,6 @@ class Tracer {
   struct Embree;
   std::unique_ptr<Embree> embree_;
   std::size_t triangle_count_ = 0;
-  float surface_offset_ = 0.0f;
 };
 
 }  // namespace gloam::trace

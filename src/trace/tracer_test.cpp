@@ -237,11 +237,16 @@ TEST(Tracer, SurfaceOffsetNeitherLeaksNorCatches) {
         const std::uint32_t* c = &mesh.indices[3 * t];
         const glm::vec3 p =
             mesh.positions[c[0]] * (1 - u - v) + mesh.positions[c[1]] * u + mesh.positions[c[2]] * v;
+        const auto corner = [&](int k) { return glm::vec3(placed * glm::vec4(mesh.positions[c[k]], 1.0f)); };
+        const float offset = surfaceOffset(corner(0), corner(1), corner(2));
         const glm::vec3 on_surface(placed * glm::vec4(p, 1.0f)), normal = turned * mesh.normals[c[0]];
         glm::vec3 direction = randomRay(random).direction;
         if (glm::dot(direction, normal) < 0.0f) direction = -direction;
-        EXPECT_FALSE(tracer.occluded({on_surface + normal * tracer.surfaceOffset(), direction}));
-        EXPECT_TRUE(tracer.occluded({on_surface - normal * tracer.surfaceOffset(), -direction}));
+        EXPECT_FALSE(tracer.occluded({on_surface + normal * offset, direction}));
+        const Hit hit = tracer.closest({on_surface + 2.0f * size * normal, -normal});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(tracer.surfaceOffset(hit) > 0.0f, offset > 0.0f);
+        EXPECT_TRUE(tracer.occluded({on_surface - normal * offset, -direction}));
       }
     }
   }
@@ -258,7 +263,6 @@ TEST(Tracer, DegenerateAndMissingTrianglesAreHarmless) {
   const World nothing;
   const Tracer empty(nothing.scene, nothing.posed);
   EXPECT_FALSE(empty.closest({{0, 0, 0}, {0, 1, 0}}));
-  EXPECT_EQ(empty.surfaceOffset(), 0.0f);
 }
 
 TEST(Tracer, BuildStopsWhenAsked) {

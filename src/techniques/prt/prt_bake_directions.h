@@ -1,0 +1,56 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The directions of a bake with everything that is the same at every point: basis functions, cones, the order in
+// which they are traced.
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace gloam::prt {
+
+inline constexpr int kTileSize = 16;  ///< directions of a tile: the lanes of a ray packet
+
+/// The tables as plain pointers, for vectorised code.
+struct TableView {
+  const float* directions;  ///< [tile][xyz][16]
+  const float* basis;       ///< [tile][coefficient][16]
+  const float* cones;       ///< [x, y, z of the axis, sine of the half-angle][tile]
+  std::size_t cone_stride;
+  std::size_t tiles, coefficients;
+};
+
+/// Tiles stand in the order in which they are traced: along a curve over the sphere, so that one packet meets the
+/// part of the hierarchy that the packet before it has warmed (5 % faster than scattered ones).
+struct DirectionTables {
+  int order = 0;
+  int coefficients = 0;
+  int tiles = 0;         ///< all of the first pass
+  int bounce_tiles = 0;  ///< of these, the ones that bounce passes use: an even subset
+  hwy::AlignedFreeUniquePtr<float[]> directions, basis, cones;  ///< as TableView tells
+  std::size_t cone_stride = 0;                                  ///< tiles rounded up to 16
+  std::vector<std::int32_t> bounce_tile;                        ///< indices into the tiles above, ascending
+
+  TableView view() const {
+    return {directions.get(), basis.get(),        cones.get(),
+            cone_stride,      std::size_t(tiles), std::size_t(coefficients)};
+  }
+  const float* tileDirections(int tile) const { return directions.get() + std::size_t(tile) * 3 * kTileSize; }
+  glm::vec3 direction(int tile, int lane) const {
+    const float* d = tileDirections(tile) + lane;
+    return {d[0], d[kTileSize], d[2 * kTileSize]};
+  }
+  float solidAngle() const;        ///< of a direction in the first pass
+  float bounceSolidAngle() const;  ///< of a direction in bounce passes
+  std::size_t memoryBytes() const;
+};
+
+/// `count` and `bounce_count` are rounded to whole tiles; the subset is the even prefix that is nearest in size to
+/// what is asked for, so it may be up to 1.5 times larger or smaller.
+DirectionTables makeDirectionTables(int order, int count, int bounce_count);
+
+}  // namespace gloam::prt

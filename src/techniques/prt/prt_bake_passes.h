@@ -1,0 +1,54 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The passes of a bake (PRT-1, PRT-3), a block of points at a time.
+#pragma once
+
+#include "techniques/prt/prt_bake_state.h"
+#include "trace/tracer.h"
+
+namespace gloam::prt {
+
+/// All that passes read. Thread-safe: a block writes its own rows of the state alone.
+class BakePasses {
+ public:
+  BakePasses(const Scene& scene, const PosedScene& posed, const BakePoints& points,
+             const trace::Tracer& tracer, const DirectionTables& tables);
+
+  /// Shadow rays and DS of one block. Returns the number of rays.
+  std::size_t shadowBlock(std::size_t block, BakeState& state) const;
+  /// M^b of one block from M^{b-1}. Returns the number of rays.
+  std::size_t bounceBlock(std::size_t block, BakeState& state) const;
+  /// Points inside something take the mean of their neighbours; `row` floats a point. To be called between passes.
+  void fillBuried(const BakeState& state, std::size_t row, std::vector<float>& values) const;
+
+ private:
+  struct Scratch;
+  struct Backs {
+    float single_sided = 0.0f, all = 0.0f;  ///< shares of the cosine-weighted hemisphere
+    bool buried() const;
+  };
+  Backs seenBacks(const glm::vec3& origin, const glm::vec3& normal) const;
+  void projectPoints(std::size_t begin, std::size_t count, const std::uint16_t* blocked, float* sums) const;
+  std::size_t digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const;
+  bool moveOutside(std::size_t point, RaySite& site) const;
+  void gatherPoint(std::size_t point, const BakeState& state, Scratch& scratch) const;
+  void addHits(const trace::HitPacket& hits, std::uint32_t lanes, const float* cosines,
+               Scratch& scratch) const;
+  bool isBack(int instance, int triangle, float along_normal) const;
+
+  const Scene& scene_;
+  const BakePoints& points_;
+  const trace::Tracer& tracer_;
+  const DirectionTables& tables_;
+  struct Surface {
+    const Mesh* mesh = nullptr;
+    bool double_sided = false;
+    bool uniform = false;    ///< one albedo everywhere
+    glm::vec3 albedo{0.0f};  ///< where uniform
+  };
+  std::vector<Surface> surfaces_;  ///< [instance]
+  std::vector<glm::vec3> probes_;  ///< directions of seenBacks
+};
+
+}  // namespace gloam::prt

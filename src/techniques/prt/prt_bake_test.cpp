@@ -1,0 +1,457 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Laws of baked transfer on scenes whose answer a person can derive (PRT-1, PRT-3). "Brightness" is what a vertex of albedo
+// 1 sends back under uniform light of radiance 1: M . (sqrt(4 pi), 0, 0 ...) / pi.
+#include <gloam/bake.h>
+#include <gloam/sh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "math/sampling.h"
+#include "scene/transforms.h"
+#include "techniques/prt/prt_bake_test_scenes.h"
+
+namespace gloam::prt {
+namespace {
+
+constexpr float kPi = sampling::kPi;
+
+BakeOptions shadowed(int order = 4, int directions = 4096) {
+  BakeOptions options;
+  options.kind = TransferKind::kShadowed;
+  options.order = order;
+  options.directions = directions;
+  return options;
+}
+
+BakeOptions interreflected(int bounces, int order = 3, int directions = 2048, int bounce_directions = 1024) {
+  BakeOptions options = shadowed(order, directions);
+  options.kind = TransferKind::kInterreflected;
+  options.bounces = bounces;
+  options.bounce_directions = bounce_directions;
+  return options;
+}
+
+std::size_t coefficients(const Transfer& t) {
+  return std::size_t(t.order * t.order);
+}
+
+float directBrightness(const Mesh& mesh, std::size_t vertex) {
+  return mesh.transfer->direct[vertex * coefficients(*mesh.transfer)] * std::sqrt(4.0f * kPi) / kPi;
+}
+glm::vec3 indirectBrightness(const Mesh& mesh, std::size_t vertex) {
+  const float* m = &mesh.transfer->indirect[vertex * 3 * coefficients(*mesh.transfer)];
+  return glm::vec3(m[0], m[1], m[2]) * (std::sqrt(4.0f * kPi) / kPi);
+}
+float brightness(const Mesh& mesh, std::size_t vertex) {
+  return directBrightness(mesh, vertex) + indirectBrightness(mesh, vertex).g;
+}
+
+void expectCosineTransfer(const Mesh& mesh, std::size_t vertex, const glm::vec3& normal, float tolerance) {
+  const Transfer& t = *mesh.transfer;
+  const sh::Sh expected = sh::rotateZonal(sh::clampedCosine(t.order), normal);
+  for (int i = 0; i < t.order * t.order; ++i) {
+    EXPECT_NEAR(t.direct[vertex * coefficients(t) + std::size_t(i)], expected[i], tolerance)
+        << "coefficient " << i;
+  }
+}
+
+// Whether triangles use a vertex: those at the poles of a sphere are partly spare.
+std::vector<bool> usedVertices(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertexCount());
+  for (const std::uint32_t i : mesh.indices) used[i] = true;
+  return used;
+}
+
+bool sameBits(const Scene& a, const Scene& b) {
+  for (std::size_t m = 0; m < a.meshes.size(); ++m) {
+    if (a.meshes[m].transfer->direct != b.meshes[m].transfer->direct) return false;
+    if (a.meshes[m].transfer->indirect != b.meshes[m].transfer->indirect) return false;
+  }
+  return a.meshes.size() == b.meshes.size();
+}
+
+// ---- Convex bodies: DS = DU = A_l y_l(n) -----------------------------------------------------------------------------
+
+TEST(PrtBake, ConvexBodiesAreUnshadowed) {
+  for (const int order : {3, 4, 5, 6}) {
+    const Scene baked = bakeTransfer(sceneOf(sphereMesh(8, 16)), shadowed(order, 1024));
+    const Mesh& mesh = baked.meshes[0];
+    for (std::size_t v = 0; v < mesh.vertexCount(); v += 3)
+      expectCosineTransfer(mesh, v, mesh.normals[v], 1e-5f);
+  }
+  // Corners with one normal a side, and with one smooth normal for three sides.
+  for (const bool smooth : {false, true}) {
+    const Scene baked = bakeTransfer(sceneOf(boxMesh(glm::vec3(3.0f, 0.01f, 1.0f), smooth)), shadowed());
+    const Mesh& mesh = baked.meshes[0];
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+      expectCosineTransfer(mesh, v, mesh.normals[v], 1e-5f);
+  }
+}
+
+TEST(PrtBake, WhiteFurnaceOfAConvexBodyIsOne) {
+  const Scene baked = bakeTransfer(sceneOf(sphereMesh(12, 24)), interreflected(2));
+  const std::vector<bool> used = usedVertices(baked.meshes[0]);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) {
+      EXPECT_NEAR(brightness(baked.meshes[0], v), 1.0f, 0.002f);
+    }
+  }
+}
+
+TEST(PrtBake, UnshadowedNeedsNoRays) {
+  BakeOptions options = shadowed();
+  options.kind = TransferKind::kUnshadowed;
+  BakeReport report;
+  const Scene baked = bakeTransfer(sceneOf(bowlMesh(0.7f, 8, 16)), options, {}, &report);
+  EXPECT_EQ(report.rays, 0u);
+  const Mesh& mesh = baked.meshes[0];
+  const std::vector<bool> used = usedVertices(mesh);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) expectCosineTransfer(mesh, v, mesh.normals[v], 1e-6f);
+  }
+}
+
+// Coefficients belong to the object's own axes, scale taken out.
+TEST(PrtBake, TransferStandsInTheObjectsAxes) {
+  const glm::mat3 turned(0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0.0f, 0.48f, 0.64f, 0.6f);
+  for (const glm::vec3& scale :
+       {glm::vec3(2.0f), glm::vec3(-1.0f, 1.0f, 1.0f), glm::vec3(1.0f, 3.0f, 0.5f)}) {
+    const glm::mat3 matrix = turned * glm::mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
+    Scene scene = sceneOf(sphereMesh(8, 16));
+    scene.nodes[0].matrix = glm::mat4(matrix);
+    const Scene baked = bakeTransfer(scene, shadowed(4, 512));
+    const Mesh& mesh = baked.meshes[0];
+    for (std::size_t v = 0; v < mesh.vertexCount(); v += 5) {
+      const glm::vec3 world_normal = glm::normalize(normalTransform(matrix) * mesh.normals[v]);
+      expectCosineTransfer(mesh, v, glm::transpose(rotationFactor(matrix)) * world_normal, 2e-5f);
+    }
+  }
+}
+
+// ---- Shadows ---------------------------------------------------------------------------------------------------------
+
+// A wall that subtends the elevation alpha along all of one side of a plane's point blocks (1 - cos alpha) / 2 of its
+// irradiance; an endless one blocks a half, whose x coefficient is 0.488603 * 2/3.
+TEST(PrtBake, HalfPlaneBlocker) {
+  for (const float alpha : {kPi / 2, kPi / 4, kPi / 8}) {
+    const float height = alpha > 1.5f ? 1e4f : std::tan(alpha);
+    Scene scene = sceneOf(quadMesh({0, 0, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}));
+    addMesh(scene, quadMesh({1, height / 2, 0}, {0, height / 2, 0}, {0, 0, 1e4f}));
+    const Scene baked = bakeTransfer(scene, shadowed(5, 16384));
+    const Mesh& plane = baked.meshes[0];
+    for (std::size_t v = 0; v < plane.vertexCount(); ++v) {
+      const float distance = 1.0f - plane.positions[v].x;
+      const float cosine = alpha > 1.5f ? 0.0f : distance / std::hypot(height, distance);
+      EXPECT_NEAR(directBrightness(plane, v), (1.0f + cosine) / 2, 0.004f) << alpha;
+      if (alpha < 1.5f) continue;
+      EXPECT_NEAR(plane.transfer->direct[v * 25 + 3], -0.488603f * 2.0f / 3.0f, 0.004f);
+    }
+  }
+}
+
+TEST(PrtBake, ClosedRoomIsDarkToItsCorners) {
+  Mesh room = boxMesh(glm::vec3(2.0f, 1.0f, 3.0f), false);
+  turnInsideOut(room);
+  for (const bool smooth : {false, true}) {
+    if (smooth) {
+      room = boxMesh(glm::vec3(2.0f, 1.0f, 3.0f), true);
+      turnInsideOut(room);
+    }
+    const Scene baked = bakeTransfer(sceneOf(room), shadowed());
+    for (std::size_t v = 0; v < room.vertexCount(); ++v) {
+      EXPECT_NEAR(directBrightness(baked.meshes[0], v), 0.0f, 2e-4f);
+    }
+  }
+}
+
+// A box that stands on a floor, its lower vertices exactly in the floor: they see the floor on one half, the sky on the
+// other, whether the box stands on it or reaches through it.
+TEST(PrtBake, CreasesAreNeitherBlackNorBright) {
+  for (const float sunk : {0.0f, 0.2f}) {
+    Scene scene = sceneOf(gridMesh(1000.0f, 8));
+    Mesh box = boxMesh(glm::vec3(1.0f), false);
+    for (glm::vec3& p : box.positions) p.y += 1.0f - sunk;
+    addMesh(scene, box);
+    const Scene baked = bakeTransfer(scene, shadowed(3, 10000));
+    for (std::size_t v = 0; v < box.vertexCount(); ++v) {
+      if (box.normals[v].y < -0.5f) continue;  // lies in the floor or below
+      const bool top = box.normals[v].y > 0.5f;
+      EXPECT_NEAR(directBrightness(baked.meshes[1], v), top ? 1.0f : 0.5f, top ? 1e-5f : 0.01f) << sunk;
+    }
+  }
+}
+
+TEST(PrtBake, WhatIsHiddenInsideDoesNotDarkenWhatIsSeen) {
+  Scene scene = sceneOf(gridMesh(4.0f, 16));  // vertices half a metre apart, nine of them under the box
+  Mesh box = boxMesh(glm::vec3(0.7f), false);
+  for (glm::vec3& p : box.positions) p.y += 0.7f;
+  addMesh(scene, box);
+  for (const bool double_sided : {false, true}) {
+    scene.materials[0].double_sided = double_sided;
+    const Scene baked = bakeTransfer(scene, shadowed());
+    int under = 0;
+    for (std::size_t v = 0; v < scene.meshes[0].vertexCount(); ++v) {
+      const glm::vec3& p = scene.meshes[0].positions[v];
+      EXPECT_GT(directBrightness(baked.meshes[0], v), 0.45f);
+      under += std::abs(p.x) < 0.7f && std::abs(p.z) < 0.7f;
+    }
+    EXPECT_EQ(under, 9);
+  }
+}
+
+// Seams of texture coordinates do not show: vertices at one place with one normal get the same bits.
+TEST(PrtBake, SeamsDoNotShow) {
+  Scene scene = sceneOf(sphereMesh(8, 16));
+  addMesh(scene, quadMesh({0, -1.5f, 0}, {0, 0, 4}, {4, 0, 0}));
+  const Scene baked = bakeTransfer(scene, interreflected(1));
+  const Mesh& mesh = baked.meshes[0];
+  for (std::size_t ring = 1; ring < 8; ++ring) {
+    const std::size_t first = ring * 17, last = first + 16;
+    ASSERT_EQ(mesh.positions[first], mesh.positions[last]);
+    EXPECT_NE(mesh.transfer->direct[first * 9], 0.0f);
+    for (std::size_t i = 0; i < 9; ++i) {
+      EXPECT_EQ(mesh.transfer->direct[first * 9 + i], mesh.transfer->direct[last * 9 + i]);
+      EXPECT_EQ(mesh.transfer->indirect[first * 27 + 3 * i], mesh.transfer->indirect[last * 27 + 3 * i]);
+    }
+  }
+}
+
+// ---- Interreflection -------------------------------------------------------------------------------------------------
+
+// A spherical bowl that covers the share a of its sphere: each point of it sees the share a of its cosine-weighted
+// hemisphere covered by the rest, wherever it lies. DS leaves rho (1 - a) L, each bounce rho a times the last.
+TEST(PrtBake, OpenBowlHasTheRightPartialSums) {
+  for (const auto& [a, albedo] : {std::pair(0.3f, 0.9f), std::pair(0.6f, 0.6f)}) {
+    Scene scene = sceneOf(bowlMesh(a, 16, 32));
+    scene.materials[0].base_color = glm::vec4(glm::vec3(albedo), 1.0f);
+    const std::vector<bool> used = usedVertices(scene.meshes[0]);
+    for (const int bounces : {1, 2, 3, 20}) {
+      const Scene baked = bakeTransfer(scene, interreflected(bounces, 3, 20000, 1024));
+      const float ratio = albedo * a;
+      const float direct = albedo * (1.0f - a);
+      const float total = direct * (1.0f - std::pow(ratio, float(bounces + 1))) / (1.0f - ratio);
+      if (bounces == 20) {
+        EXPECT_NEAR(total, direct / (1.0f - ratio), 1e-5f);
+      }
+      for (std::size_t v = 0; v < scene.meshes[0].vertexCount(); ++v) {
+        if (!used[v]) continue;
+        EXPECT_NEAR(albedo * directBrightness(baked.meshes[0], v) / direct, 1.0f, 0.01f);
+        EXPECT_NEAR(albedo * brightness(baked.meshes[0], v) / total, 1.0f, 0.01f) << a << " " << bounces;
+      }
+    }
+  }
+}
+
+TEST(PrtBake, WhiteFurnaceOfAConcaveBodyConvergesToOne) {
+  const Scene scene = sceneOf(bowlMesh(0.75f, 12, 24));
+  const std::vector<bool> used = usedVertices(scene.meshes[0]);
+  float last = 0.0f;
+  for (const int bounces : {1, 4, 16, 64}) {
+    const Scene baked = bakeTransfer(scene, interreflected(bounces, 3, 2048, 512));
+    float least = 2.0f, most = 0.0f;
+    for (std::size_t v = 0; v < scene.meshes[0].vertexCount(); ++v) {
+      if (!used[v]) continue;
+      least = std::min(least, brightness(baked.meshes[0], v));
+      most = std::max(most, brightness(baked.meshes[0], v));
+    }
+    EXPECT_GT(least, last);
+    EXPECT_LT(most, 1.0f + 1e-4f);
+    last = least;
+  }
+  EXPECT_NEAR(last, 1.0f, 0.002f);
+}
+
+TEST(PrtBake, BacksBlockAndSendNothing) {
+  // A sheet above a floor: what looks up sees its lower side.
+  for (const bool facing_down : {false, true}) {
+    Scene scene = sceneOf(quadMesh({0, 0, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}));
+    Mesh sheet = quadMesh({0, 1, 0}, {0, 0, 1.5f}, {1.5f, 0, 0});
+    if (facing_down) turnInsideOut(sheet);
+    addMesh(scene, sheet);
+    addMesh(scene, quadMesh({0, -0.01f, 0}, {0, 0, 50}, {50, 0, 0}));
+    scene.materials[0].double_sided = true;
+    const Scene baked = bakeTransfer(scene, interreflected(2));
+    EXPECT_NEAR(directBrightness(baked.meshes[0], 0), 0.4f, 0.2f);
+    if (facing_down) {
+      EXPECT_GT(indirectBrightness(baked.meshes[0], 0).g, 0.1f);
+    } else {
+      EXPECT_LT(indirectBrightness(baked.meshes[0], 0).g, 1e-5f);
+    }
+  }
+}
+
+// Two halves of a wall, painted by a texture: the floor before each takes its colour.
+TEST(PrtBake, TexturesBleed) {
+  Scene scene = sceneOf(gridMesh(1.0f, 8));
+  Mesh wall = quadMesh({0, 1, -1}, {1, 0, 0}, {0, 1, 0});
+  wall.uv_sets = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  Material painted = scene.materials[0];
+  painted.base_color_map.texture = 0;
+  painted.base_color_map.nearest = true;
+  scene.textures.push_back({"", 2, 1, {255, 0, 0, 255, 0, 0, 255, 255}});
+  addMesh(scene, wall).material = 1;
+  scene.materials.push_back(painted);
+  const Scene baked = bakeTransfer(scene, interreflected(1));
+  const Mesh& floor = baked.meshes[0];
+  for (std::size_t v = 0; v < floor.vertexCount(); ++v) {
+    const glm::vec3 light = indirectBrightness(floor, v), p = floor.positions[v];
+    if (p.z > 0.0f || std::abs(p.x) < 0.3f) continue;
+    EXPECT_NEAR(light.g, 0.0f, 1e-6f);
+    EXPECT_GT(p.x < 0.0f ? light.r : light.b, 1.2f * (p.x < 0.0f ? light.b : light.r)) << p.x << " " << p.z;
+  }
+  scene.materials[1].metallic = 1.0f;  // metal has no diffuse albedo
+  const Scene metal = bakeTransfer(scene, interreflected(1));
+  for (const float value : metal.meshes[0].transfer->indirect) EXPECT_EQ(value, 0.0f);
+}
+
+// ---- Threads, interruption, checkpoints --------------------------------------------------------------------------------
+
+TEST(PrtBake, SameBitsForAnyNumberOfThreads) {
+  const Scene scene = crowdedScene();
+  BakeOptions options = interreflected(2, 5);
+  options.threads = 1;
+  const Scene one = bakeTransfer(scene, options);
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    EXPECT_TRUE(sameBits(one, bakeTransfer(scene, options))) << threads;
+  }
+}
+
+struct CheckpointFile {
+  std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".ckp");
+  CheckpointFile() { std::filesystem::remove(path); }
+  ~CheckpointFile() { std::filesystem::remove(path); }
+};
+
+TEST(PrtBake, InterruptedAndResumedGivesTheSameBits) {
+  const Scene scene = crowdedScene();
+  const CheckpointFile file;
+  BakeOptions options = interreflected(2, 4);
+  const Scene whole = bakeTransfer(scene, options);
+  options.checkpoint = file.path;
+  int interruptions = 0;
+  double last_fraction = 0.0;
+  for (;; ++interruptions) {
+    ASSERT_LT(interruptions, 1000);
+    Progress progress;
+    int asked = 0;
+    progress.should_stop = [&] { return ++asked > 12; };
+    progress.update = [&](double fraction, const std::string&) {
+      EXPECT_GE(fraction, 0.0);
+      EXPECT_LE(fraction, 1.0);
+      last_fraction = fraction;
+    };
+    BakeReport report;
+    try {
+      const Scene resumed = bakeTransfer(scene, options, progress, &report);
+      EXPECT_TRUE(report.resumed);
+      EXPECT_TRUE(sameBits(whole, resumed));
+      break;
+    } catch (const Interrupted& e) {
+      EXPECT_NE(std::string(e.what()).find(file.path.string()), std::string::npos);
+      EXPECT_TRUE(std::filesystem::exists(file.path));
+    }
+  }
+  EXPECT_GT(interruptions, 5);
+  EXPECT_GT(last_fraction, 0.5);
+  EXPECT_FALSE(std::filesystem::exists(file.path));
+}
+
+void interruptSoon(const Scene& scene, const BakeOptions& options) {
+  Progress progress;
+  int asked = 0;
+  progress.should_stop = [&] { return ++asked > 5; };
+  EXPECT_THROW(bakeTransfer(scene, options, progress), Interrupted);
+}
+
+TEST(PrtBake, ForeignCheckpointsAreRefusedAndKept) {
+  const Scene scene = crowdedScene();
+  const CheckpointFile file;
+  BakeOptions options = shadowed();
+  options.checkpoint = file.path;
+  std::ofstream(file.path) << "a letter to someone";
+  EXPECT_THROW(bakeTransfer(scene, options), Error);
+  EXPECT_EQ(std::filesystem::file_size(file.path), 19u);
+  std::filesystem::remove(file.path);
+
+  interruptSoon(scene, options);
+  const auto size = std::filesystem::file_size(file.path);
+  BakeOptions other_order = options, other_count = options;
+  other_order.order = 5;
+  other_count.directions = 8192;
+  EXPECT_THROW(bakeTransfer(scene, other_order), Error);
+  EXPECT_THROW(bakeTransfer(scene, other_count), Error);
+  Scene moved = scene;
+  moved.meshes[0].positions[0].x += 0.001f;
+  EXPECT_THROW(bakeTransfer(moved, options), Error);
+  EXPECT_EQ(std::filesystem::file_size(file.path), size);
+
+  std::filesystem::resize_file(file.path, size / 2);  // cut off, as by a full disk
+  EXPECT_THROW(bakeTransfer(scene, options), Error);
+  options.checkpoint = "/nonexistent/folder/x.ckp";
+  Progress stop;
+  stop.should_stop = [] { return true; };
+  EXPECT_THROW(bakeTransfer(scene, options, stop), std::runtime_error);
+}
+
+TEST(PrtBake, DamagedCheckpointsAreRefused) {
+  const Scene scene = crowdedScene();
+  const CheckpointFile file;
+  BakeOptions options = shadowed();
+  options.checkpoint = file.path;
+  interruptSoon(scene, options);
+  std::fstream damaged(file.path, std::ios::binary | std::ios::in | std::ios::out);
+  damaged.seekp(std::streamoff(std::filesystem::file_size(file.path)) - 100);
+  damaged.put('\x55');
+  damaged.close();
+  EXPECT_THROW(bakeTransfer(scene, options), Error);
+}
+
+// ---- Bad input -------------------------------------------------------------------------------------------------------
+
+TEST(PrtBake, RefusesWhatCannotBeBaked) {
+  EXPECT_THROW(bakeTransfer({}, shadowed()), Error);
+  Scene no_triangles = sceneOf(Mesh{});
+  EXPECT_THROW(bakeTransfer(no_triangles, shadowed()), Error);
+  const Scene scene = sceneOf(sphereMesh(4, 8));
+  const auto refused = [&](auto change) {
+    BakeOptions options = interreflected(1);
+    change(options);
+    EXPECT_THROW(bakeTransfer(scene, options), Error);
+    EXPECT_THROW(estimateBake(scene, options), Error);
+  };
+  refused([](BakeOptions& o) { o.order = 2; });
+  refused([](BakeOptions& o) { o.order = 7; });
+  refused([](BakeOptions& o) { o.bounces = 0; });
+  refused([](BakeOptions& o) { o.bounces = 65; });
+  refused([](BakeOptions& o) { o.directions = 100; });
+  refused([](BakeOptions& o) { o.directions = 1 << 30; });
+  refused([](BakeOptions& o) { o.bounce_directions = -1; });
+  refused([](BakeOptions& o) { o.threads = -1; });
+}
+
+TEST(PrtBake, EstimateBoundsWhatTheBakeMakes) {
+  const Scene scene = crowdedScene();
+  const BakeEstimate estimate = estimateBake(scene, interreflected(1, 5));
+  const Scene baked = bakeTransfer(scene, interreflected(1, 5));
+  std::size_t bytes = 0, vertices = 0;
+  for (const Mesh& mesh : baked.meshes) {
+    bytes += (mesh.transfer->direct.size() + mesh.transfer->indirect.size()) * sizeof(float);
+    vertices += mesh.vertexCount();
+    EXPECT_EQ(mesh.transfer->order, 5);
+    EXPECT_EQ(mesh.transfer->bounces, 1);
+  }
+  EXPECT_EQ(estimate.vertices, vertices);
+  EXPECT_GE(estimate.memory_bytes, 2 * bytes);
+  EXPECT_GE(estimate.file_bytes, bytes);
+  EXPECT_GT(estimateBake(scene, interreflected(1, 6)).memory_bytes, estimate.memory_bytes);
+}
+
+}  // namespace
+}  // namespace gloam::prt
