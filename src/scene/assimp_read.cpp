@@ -62,6 +62,7 @@ void finishImport(Scene& scene, const fs::path& path) {
   budget.addInput(fs::file_size(path, ignored));
   for (Texture& texture : scene.textures) decodeImported(texture, path, budget, scene.warnings);
 
+  MeshRepairs repairs;
   std::vector<int> kept(scene.meshes.size(), kNone);
   std::size_t count = 0;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -69,12 +70,13 @@ void finishImport(Scene& scene, const fs::path& path) {
     const std::string label = fmt::format("mesh {} ('{}')", i, oneLine(mesh.name));
     checkPositions(mesh, {}, path.string(), label);
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-    if (!finishMesh(mesh, material, kSmoothCreaseRad, label, scene.warnings)) continue;
+    if (!finishMesh(mesh, material, kSmoothCreaseRad, label, repairs)) continue;
     kept[i] = static_cast<int>(count);
     if (count != i) scene.meshes[count] = std::move(mesh);
     ++count;
   }
   scene.meshes.resize(count);
+  for (std::string& line : repairs.lines()) scene.warnings.push_back(std::move(line));
   for (Node& node : scene.nodes) {
     for (int& mesh : node.meshes) mesh = kept[static_cast<std::size_t>(mesh)];
     std::erase(node.meshes, kNone);

@@ -25,14 +25,22 @@ std::optional<Path> pathOf(const std::string& word) {
   return std::nullopt;
 }
 
-std::vector<float> readTimes(GltfReading& reading, int accessor, const std::string& where) {
-  std::vector<float> times = reading.accessors.floats(accessor, 1, where);
-  if (times.empty()) reading.document.fail(where, "at least one key was expected");
-  for (std::size_t i = 1; i < times.size(); ++i)
-    if (!(times[i] > times[i - 1]))
-      reading.document.fail(
-          where, fmt::format("times must grow: key {} is at {} s after {} s", i, times[i], times[i - 1]));
-  return times;
+/// Times must grow; exporters repeat keys all the same. Such keys are dropped with their `a_key` values each.
+void dropRepeatedKeys(GltfReading& reading, AnimationChannel& channel, std::size_t a_key,
+                      const std::string& where) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < channel.times_s.size(); ++i) {
+    if (kept > 0 && !(channel.times_s[i] > channel.times_s[kept - 1])) continue;
+    channel.times_s[kept] = channel.times_s[i];
+    std::copy_n(channel.values.begin() + static_cast<std::ptrdiff_t>(i * a_key), a_key,
+                channel.values.begin() + static_cast<std::ptrdiff_t>(kept * a_key));
+    ++kept;
+  }
+  if (kept == channel.times_s.size()) return;
+  reading.document.warn(fmt::format("{}: {} keys are not later than the one before and are left out", where,
+                                    channel.times_s.size() - kept));
+  channel.times_s.resize(kept);
+  channel.values.resize(kept * a_key);
 }
 
 /// Animated nodes are moved by translation, rotation and scale: a matrix is taken apart.
@@ -77,7 +85,8 @@ std::optional<AnimationChannel> readChannel(GltfReading& reading, const gloam_ti
     document.warn(where + ": moves morph targets of a node that has none and is left out");
     return std::nullopt;
   }
-  channel.times_s = readTimes(reading, sampler.input, sampler_place + ".input");
+  channel.times_s = reading.accessors.floats(sampler.input, 1, sampler_place + ".input");
+  if (channel.times_s.empty()) document.fail(sampler_place + ".input", "at least one key was expected");
   channel.values = reading.accessors.floats(sampler.output, *path == Path::kWeights ? 1 : channel.components,
                                             sampler_place + ".output");
   const std::size_t a_key = static_cast<std::size_t>(channel.components) *
@@ -88,6 +97,7 @@ std::optional<AnimationChannel> readChannel(GltfReading& reading, const gloam_ti
                               channel.times_s.size() * a_key, channel.times_s.size(), channel.values.size()));
   for (const float value : channel.values)
     if (std::abs(value) > 1e12f) document.fail(sampler_place + ".output", "a value lies beyond 1e12");
+  dropRepeatedKeys(reading, channel, a_key, sampler_place + ".input");
   takeMatrixApart(reading, static_cast<std::size_t>(channel.node));
   return channel;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/limits.h"
 #include "scene/gltf_parts.h"
 
 namespace gloam {
@@ -58,6 +59,12 @@ void readLights(GltfReading& reading) {
     Light light;
     light.name = nameOf(source, fmt::format("light {}", i));
     const std::string type = source["type"];
+    if (type != "directional" && type != "point" && type != "spot") {
+      reading.document.warn(fmt::format("{}.type: '{}' is left out", where, oneLine(type)));
+      reading.light_of.push_back(kNone);
+      continue;
+    }
+    reading.light_of.push_back(static_cast<int>(reading.scene.lights.size()));
     light.type = type == "directional" ? Light::Type::kDirectional
                  : type == "spot"      ? Light::Type::kSpot
                                        : Light::Type::kPoint;

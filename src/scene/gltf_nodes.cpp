@@ -111,8 +111,10 @@ void readSkins(GltfReading& reading) {
             field, fmt::format("{} matrices for {} joints", matrices.size() / 16, skin.joints.size()));
       for (std::size_t j = 0; j < skin.joints.size(); ++j) {
         skin.joint_from_mesh[j] = glm::make_mat4(&matrices[16 * j]);
-        for (int column = 0; column < 4; ++column)
+        for (int column = 0; column < 4; ++column) {
           checkReach(reading, glm::vec3(skin.joint_from_mesh[j][column]), field);
+          skin.joint_from_mesh[j][column].w = column == 3 ? 1.0f : 0.0f;  // it has to be affine
+        }
       }
     }
     reading.scene.skins.push_back(std::move(skin));
@@ -238,7 +240,7 @@ void readNodes(GltfReading& reading) {
     readTransform(reading, nodes[i], node, placeOf(i));
     hangMeshes(reading, nodes[i], node, placeOf(i));
     if (const Json* light = GltfDocument::extension(json, "KHR_lights_punctual"))
-      node.light = (*light)["light"];
+      node.light = reading.light_of[(*light)["light"].get<std::size_t>()];
     if (const Json* instancing = GltfDocument::extension(json, "EXT_mesh_gpu_instancing"))
       readInstances(reading, *instancing, node, placeOf(i) + ".extensions.EXT_mesh_gpu_instancing");
   }

@@ -187,30 +187,50 @@ bool fillUvSets(Mesh& mesh, const Material& material) {
   return true;
 }
 
+void MeshRepairs::note(Kind kind, std::size_t count, const std::string& label) {
+  if (count == 0) return;
+  Tally& tally = tallies_[kind];
+  tally.count += count;
+  if (tally.meshes++ == 0) tally.first = label;
+}
+
+Warnings MeshRepairs::lines() const {
+  constexpr const char* kWhat[kKinds] = {
+      "triangles without area are left out", "normals were zero or not finite and are computed",
+      "tangents were zero, not finite or along the normal and are replaced",
+      "vertices had no joint weights and follow their first joint",
+      "sets of texture coordinates that materials want are missing and taken as 0"};
+  Warnings out;
+  for (int kind = 0; kind < kKinds; ++kind) {
+    const Tally& tally = tallies_[static_cast<std::size_t>(kind)];
+    if (tally.count == 0) continue;
+    const std::string where = tally.meshes == 1
+                                  ? fmt::format("in {}", tally.first)
+                                  : fmt::format("in {} meshes, first {}", tally.meshes, tally.first);
+    out.push_back(fmt::format("{} {} ({})", tally.count, kWhat[kind], where));
+  }
+  return out;
+}
+
 bool finishMesh(Mesh& mesh, const Material& material, float crease_rad, const std::string& label,
-                Warnings& warnings) {
-  const auto note = [&](std::size_t count, const char* what) {
-    if (count) warnings.push_back(fmt::format("{}: {} {}", label, count, what));
-  };
-  note(removeDegenerateTriangles(mesh), "triangles without area are left out");
+                MeshRepairs& repairs) {
+  repairs.note(MeshRepairs::kNoArea, removeDegenerateTriangles(mesh), label);
   if (mesh.indices.empty()) return false;
   removeUnusedVertices(mesh);
-  if (fillUvSets(mesh, material))
-    warnings.push_back(
-        fmt::format("{}: its material wants texture coordinates that it lacks; they are taken as 0", label));
+  repairs.note(MeshRepairs::kUvSets, fillUvSets(mesh, material) ? 1 : 0, label);
   if (mesh.normals.empty()) {
     mesh.tangents.clear();  // tangents without normals mean nothing
     computeNormals(mesh, crease_rad);
   } else {
-    note(repairNormals(mesh), "normals were zero or not finite and are computed");
+    repairs.note(MeshRepairs::kNormals, repairNormals(mesh), label);
   }
   if (!mesh.tangents.empty())
-    note(repairTangents(mesh), "tangents were zero, not finite or along the normal and are replaced");
+    repairs.note(MeshRepairs::kTangents, repairTangents(mesh), label);
   else if (material.normal_map)
     computeTangents(mesh, material.normal_map);
   else
     setAnyTangents(mesh);
-  note(normalizeWeights(mesh), "vertices had no joint weights and follow their first joint");
+  repairs.note(MeshRepairs::kWeights, normalizeWeights(mesh), label);
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include <gloam/scene.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -51,10 +52,26 @@ std::size_t normalizeWeights(Mesh& mesh);
 /// Returns true where it was so.
 bool fillUvSets(Mesh& mesh, const Material& material);
 
+/// What was mended, counted over all meshes of a file, so that a remark is made once.
+class MeshRepairs {
+ public:
+  enum Kind { kNoArea, kNormals, kTangents, kWeights, kUvSets, kKinds };
+  void note(Kind kind, std::size_t count, const std::string& label);
+  /// "12 triangles without area are left out (in 3 meshes, first in 'body')"
+  Warnings lines() const;
+
+ private:
+  struct Tally {
+    std::size_t count = 0, meshes = 0;
+    std::string first;
+  };
+  std::array<Tally, kKinds> tallies_;
+};
+
 /// All of the above in order, for a mesh whose arrays are filled as far as the file has them: returns false where no
-/// triangle is left. `label` names the mesh in warnings; `material` is the mesh's.
+/// triangle is left. `label` names the mesh in remarks; `material` is the mesh's.
 bool finishMesh(Mesh& mesh, const Material& material, float crease_rad, const std::string& label,
-                Warnings& warnings);
+                MeshRepairs& repairs);
 
 /// Throws Error(place, "label: …") at the first position that is not finite or beyond 1e12. `original` gives a vertex's
 /// number in the file; may be empty.

@@ -135,7 +135,13 @@ class SceneCheck {
       triangles = triangles || !node.meshes.empty();
       open.insert(open.end(), node.children.begin(), node.children.end());
     }
-    if (finished_ && !triangles) throw Error(place_, "there are no triangles to draw");
+    if (finished_ && !triangles) {
+      std::string why;
+      for (const std::string& line : scene_.warnings)
+        if (line.find("triangles") != line.npos || line.find("primitives") != line.npos)
+          why = " (" + line + ")";
+      throw Error(place_, "there are no triangles to draw" + why);
+    }
   }
 
   const Scene& scene_;

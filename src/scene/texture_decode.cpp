@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// stb_image as a private copy of this unit, with the few formats that scenes use: its others have a history of bugs.
+// PNG and JPEG through the image room. BMP and TGA, which OBJ files name, through stb_image as a private copy of this
+// unit, with no other of its formats: several have a history of bugs.
 #include "scene/texture_decode.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -27,10 +26,13 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "image/limits.h"
+#include "image/raster.h"
+
 namespace gloam {
 namespace {
 
-constexpr std::int64_t kMaxTexturePixels = std::int64_t(1) << 26;
+constexpr std::int64_t kMaxTextureSide = 16384, kMaxTexturePixels = std::int64_t(1) << 26;
 
 /// What the bytes are, where we know and cannot read it.
 const char* foreignFormat(std::span<const std::uint8_t> bytes) {
@@ -50,6 +52,21 @@ Texture decodeTexture(std::span<const std::uint8_t> bytes, const std::string& na
   if (const char* foreign = foreignFormat(bytes)) fail(foreign);
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     fail(fmt::format("{} bytes are no picture", bytes.size()));
+  const auto accept = [&](std::int64_t width, std::int64_t height) {
+    if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide ||
+        width * height > kMaxTexturePixels)
+      fail(fmt::format("{} x {} pixels; at most {} are read", width, height, kMaxTexturePixels));
+    budget.charge(static_cast<std::size_t>(width * height), 4, where);
+  };
+  Texture texture;
+  texture.name = name;
+  if (isPng(bytes) || isJpeg(bytes)) {
+    const Raster raster = decodeRaster(bytes, place + ": " + where, accept);
+    texture.width = raster.width;
+    texture.height = raster.height;
+    texture.rgba = rgba8(raster);
+    return texture;
+  }
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   const auto reason = [] {
@@ -57,18 +74,15 @@ Texture decodeTexture(std::span<const std::uint8_t> bytes, const std::string& na
   };
   if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
     fail("not a PNG or JPEG picture, or a broken one (" + reason() + ")");
-  if (width < 1 || height < 1 || std::int64_t(width) * height > kMaxTexturePixels)
-    fail(fmt::format("{} x {} pixels; at most {} are read", width, height, kMaxTexturePixels));
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  budget.charge(pixels, 4, where);
+  constexpr double kPixelsPerByte = 128.0;  // TGA: runs of 128
+  checkPictureSize(place + ": " + where, width, height, bytes.size(), kPixelsPerByte);
+  accept(width, height);
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
   if (!rgba) fail("the picture is broken (" + reason() + ")");
-  Texture texture;
-  texture.name = name;
   texture.width = width;
   texture.height = height;
-  texture.rgba.assign(rgba.get(), rgba.get() + pixels * 4);
+  texture.rgba.assign(rgba.get(), rgba.get() + std::size_t(width) * std::size_t(height) * 4);
   return texture;
 }
 
