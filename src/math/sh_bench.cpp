@@ -7,7 +7,7 @@
 #include <gloam/sh.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <functional>
 
 #include "math/sampling.h"
@@ -104,15 +104,15 @@ std::vector<Routine> routines() {
   };
 }
 
-/// Nanoseconds an item of one run of at least that long.
+/// Nanoseconds of processor time an item, of one run of at least that long: what other programs take meanwhile does
+/// not count.
 double timeRun(const Routine& routine, Data& data, int order, double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const std::clock_t start = std::clock();
   double elapsed = 0.0;
   std::size_t calls = 0;
   do {
     for (int i = 0; i < 8; ++i, ++calls) routine.run(data, order);
-    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    elapsed = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   } while (elapsed < seconds);
   return elapsed / static_cast<double>(calls * kItems) * 1e9;
 }
@@ -140,8 +140,9 @@ std::vector<BenchRow> bench(int runs, double seconds, const Progress& progress) 
 }
 
 std::string benchTable(const std::vector<BenchRow>& rows) {
-  std::string text = fmt::format("{}, one thread, ns an item\n{:<14} {:>5} {:>9} {:>9} {:>9}  {}\n",
-                                 simdTarget(), "routine", "order", "median", "best", "bar", "bar from");
+  std::string text =
+      fmt::format("{}, one thread, ns of processor time an item\n{:<14} {:>5} {:>9} {:>9} {:>9}  {}\n",
+                  simdTarget(), "routine", "order", "median", "best", "bar", "bar from");
   for (const BenchRow& row : rows) {
     const std::string bar = row.bar_ns > 0.0 ? fmt::format("{:.1f}", row.bar_ns) : "-";
     text += fmt::format("{:<14} {:>5} {:>9.2f} {:>9.2f} {:>9}  {}\n", row.name, row.order, row.ns,

@@ -14,7 +14,7 @@ namespace gloam::sh {
 struct BenchRow {
   std::string name;  ///< "evaluate", "rotate", "rotate apply", "product"; with ", one" for single items
   int order = 0;
-  double ns = 0.0;       ///< median time an item
+  double ns = 0.0;       ///< median processor time an item
   double ns_best = 0.0;  ///< of the fastest run
   double bar_ns = 0.0;   ///< what a public library reached on a two-core AMD EPYC with AVX-512; 0: no figure
   std::string bar_source;

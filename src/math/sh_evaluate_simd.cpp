@@ -146,7 +146,9 @@ std::string simdTarget() {
 }
 
 void checkPlanes(const char* what, std::size_t given, int planes, std::size_t count, std::size_t stride) {
-  if (stride < count || given < static_cast<std::size_t>(planes - 1) * stride + count)
+  const auto steps = static_cast<std::size_t>(planes - 1);
+  const bool fits = given >= count && (steps == 0 || stride <= (given - count) / steps);
+  if (stride < count || !fits)
     throw Error(what, std::to_string(given) + " floats, expected " + std::to_string(planes) + " planes of " +
                           std::to_string(count) + " at a stride of " + std::to_string(stride));
 }

@@ -73,10 +73,12 @@ RowEdges rowEdges(int row, int height) {
   return {std::cos(row * step), std::cos((row + 1) * step)};
 }
 
-void checkTexels(const char* what, std::size_t given, long long width, long long height) {
-  if (width < 1 || height < 1 || static_cast<long long>(given) != width * height)
-    throw Error(what, std::to_string(given) + " texels, expected " + std::to_string(width) + " x " +
-                          std::to_string(height) + " of them, at least one");
+/// `rows` rows of `columns` texels, columns below 2^34.
+void checkTexels(const char* what, std::size_t given, long long columns, long long rows) {
+  const auto texels = static_cast<long long>(given);
+  if (columns < 1 || rows < 1 || texels % rows != 0 || texels / rows != columns)
+    throw Error(what, std::to_string(given) + " texels, expected " + std::to_string(columns) + " x " +
+                          std::to_string(rows) + " of them, at least one");
 }
 
 /// Integral of 1 / (1 + s^2 + t^2)^(3/2) over [0, s] x [0, t].

@@ -204,6 +204,8 @@ TEST(ShProjection, WrongSizesAreErrors) {
   EXPECT_THROW(projectEquirectangular(3, texels, -4, -6), Error);
   EXPECT_THROW(projectCube(3, texels, 3), Error);
   EXPECT_THROW(projectCube(3, texels, 0), Error);
+  EXPECT_THROW(projectCube(3, texels, 2147483647), Error);
+  EXPECT_THROW(projectEquirectangular(3, texels, 2147483647, 2147483647), Error);
   EXPECT_NO_THROW(projectCube(3, texels, 2));
 }
 

@@ -106,6 +106,7 @@ TEST(ShBasis, BadArgumentsAreErrors) {
   EXPECT_THROW(evaluateMany(2, three, two, three, out, 16), Error);
   EXPECT_THROW(evaluateMany(2, three, three, three, std::span(out).first(10), 3), Error);
   EXPECT_THROW(evaluateMany(2, three, three, three, out, 2), Error);
+  EXPECT_THROW(evaluateMany(3, three, three, three, out, ~std::size_t{0} / 2), Error);
   EXPECT_NO_THROW(evaluateMany(2, three, three, three, std::span(out).first(12), 3));
 }
 
