@@ -97,6 +97,10 @@ struct RenderOptions {
   int shadow_map_size = 1024;            ///< texels a side for punctual lights
   bool background = true;                ///< draw the environment behind the scene; else black, alpha 0
   bool timings = false;                  ///< fill RenderedFrame::passes
+  bool layers = true;  ///< normal, depth, albedo and object besides the light
+  /// Any image of the frame by name ("frame.irradiance_direct", "prt.irradiance_indirect"; Renderer::imageNames() lists
+  /// them) as one more layer of that name, for eyes; empty: none.
+  std::string show;
 };
 
 struct PassTime {
@@ -109,7 +113,11 @@ struct RenderedFrame {
   LayeredImage layers;
   std::vector<PassTime> passes;
   std::size_t memory_bytes = 0;  ///< device memory held
+  Warnings warnings;             ///< what this frame left out or made smaller, one line each
 };
+
+/// The frame's light as a display shows it: R, G, B, A in linear 0 to 1, as writePng takes it.
+Image toDisplay(const LayeredImage& layers, const DisplayOptions& options);
 
 /// Draws frames of one scene. Not thread-safe; movable.
 class Renderer {
@@ -121,12 +129,18 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Uploads the scene; the renderer keeps its own copy of what it needs. An empty environment means no light from it.
+  /// Uploads the scene and its own environment; the renderer keeps its own copy of what it needs. Throws Error where the
+  /// device has no room for it.
   void setScene(const Scene& scene);
+  /// Distant light in place of the scene's own. An empty environment means no light from afar.
   void setEnvironment(const Environment& environment);
 
-  /// Draws one frame. Throws Error where the technique cannot light this scene, or the picture is too large.
+  /// Draws one frame. Throws Error where the technique cannot light this scene, an option is unknown or out of range, the
+  /// pose does not fit the scene, or the picture is too large for the device.
   RenderedFrame render(const PosedScene& posed, const PosedCamera& camera, const RenderOptions& options);
+
+  /// Names that RenderOptions::show takes, of the frame that was drawn last.
+  std::vector<std::string> imageNames() const;
 
   DeviceInfo device() const;
   int validationMessages() const;  ///< with GLOAM_VALIDATION=1

@@ -1,0 +1,49 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The two sides of a technique: what a frame gives it (FrameInputs) and what it hands on (Lighting).
+#pragma once
+
+#include <functional>
+
+#include "frame/environment_light.h"
+#include "frame/gbuffer.h"
+#include "frame/receivers.h"
+#include "frame/shadow_maps.h"
+
+namespace gloam::frame {
+
+/// All that a technique may read. Valid while the frame is recorded.
+struct FrameInputs {
+  const GpuScene& scene;
+  const GBuffer& gbuffer;
+  Receivers& receivers;  ///< asks for what it needs: receivers.at(4)
+  const ShadowMaps& shadow_maps;
+  const EnvironmentLight& environment;
+  gpu::BufferRef view;  ///< FrameView
+  Warnings& warnings;   ///< one-line remarks for whoever renders
+};
+
+/// First surface lit by a source, or by other surfaces.
+enum class Path : std::uint8_t { kDirect, kIndirect };
+
+/// RGB irradiance with the receiver's normal applied, its albedo not: k_d / pi times it leaves the surface.
+struct Irradiance {
+  gpu::ImageRef image;  ///< RGB, floats or halves, of the size of receivers.at(divisor)
+  Path path = Path::kDirect;
+  int divisor = 1;  ///< below full size it is upsampled along surfaces (PX-8)
+};
+
+/// What a technique hands on, never final colour. Terms of different light paths add up.
+struct Lighting {
+  std::vector<Irradiance> irradiance;
+  /// True: the technique's terms contain the direct light of lamps, else frame/ shades it with its shadow maps.
+  bool has_local_direct = false;
+  /// True: the technique's terms contain the gloss of the environment, else frame/ adds the unshadowed Phong lobe.
+  bool has_environment_gloss = false;
+};
+
+/// A technique, as far as frame/ knows of it.
+using LightingStep = std::function<Lighting(gpu::FrameGraph&, const FrameInputs&)>;
+
+}  // namespace gloam::frame

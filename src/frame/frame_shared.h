@@ -1,0 +1,117 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What C++ and shaders both know about a frame: the camera, instances, materials, lights.
+#ifndef GLOAM_FRAME_SHARED_H
+#define GLOAM_FRAME_SHARED_H
+#include "gpu/shared_types.h"
+GLOAM_SHARED_BEGIN(frame)
+
+GLOAM_SHARED_CONST uint kAbsent = 0xffffffffu;
+
+/// The camera of this frame. Pixels count from the top left corner; centres are at + 1/2. Depth is reversed: 1 at the near
+/// plane, 0 infinitely far (perspective) or at the far plane (orthographic).
+struct FrameView {
+  mat4 clip_from_world;
+  mat4 previous_clip_from_world;
+  vec3 eye;
+  float z_near;
+  vec3 forward;       // unit
+  float depth_range;  // orthographic: far - near; perspective: 0
+  vec3
+      corner;  // pixel (x, y) looks along corner + x step_x + y step_y (perspective), or from eye + that (orthographic)
+  uint width;
+  vec3 step_x;
+  uint height;
+  vec3 step_y;
+};
+GLOAM_SHARED_SIZE(FrameView, 204)
+
+/// Geometry of one mesh. `first_uv` has one entry a texture slot: base colour, metallic-roughness, normal, emission.
+struct MeshRow {
+  uint first_vertex;
+  uint first_index;
+  uint material;
+  uint first_color;  // kAbsent: white
+  uvec4 first_uv;    // kAbsent: (0, 0)
+};
+GLOAM_SHARED_SIZE(MeshRow, 32)
+
+/// One mesh standing in the world; rows stand in the order of PosedScene::instances. Object ids are row + 1.
+struct InstanceRow {
+  mat4x3 world_from_object;
+  mat4x3 previous_world_from_object;
+  mat3 world_from_normal;  // inverse transpose up to a positive factor
+  float handedness;        // -1 where the matrix mirrors
+  uint
+      first_vertex;  // of positions, normals, tangents: the mesh's, or the instance's own where it is deformed
+  uint previous_first_vertex;
+  uint mesh;
+};
+GLOAM_SHARED_SIZE(InstanceRow, 148)
+
+GLOAM_SHARED_CONST uint kMaterialNormalMap = 1u;
+
+struct MaterialRow {
+  vec4 base_color;
+  vec3 emission;
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float alpha_cutoff;
+  uint flags;
+  vec4 texture_from_uv[4];  // columns of the 2x2 part; slots as in MeshRow::first_uv
+  vec2 texture_offset[4];
+};
+GLOAM_SHARED_SIZE(MaterialRow, 144)
+
+GLOAM_SHARED_CONST uint kLightDirectional = 0u;
+GLOAM_SHARED_CONST uint kLightPoint = 1u;
+GLOAM_SHARED_CONST uint kLightSpot = 2u;
+
+/// A punctual light. Its shadow maps are layers first_map …: one, or six (the faces of a cube).
+struct LightRow {
+  vec3 position;
+  uint kind;
+  vec3 direction;  // the way it shines
+  float range;     // 0: unlimited
+  vec3 intensity;
+  float cos_inner;
+  float cos_outer;
+  uint first_map;
+  uint map_count;
+};
+GLOAM_SHARED_SIZE(LightRow, 60)
+
+/// One layer of the shadow maps. Depth is reversed as in FrameView.
+struct ShadowView {
+  mat4 clip_from_world;
+  vec3 origin;
+  float z_near;  // perspective
+  vec3 right;
+  float half_width;  // at distance 1 (perspective) or everywhere (orthographic)
+  vec3 up;
+  float half_height;
+  vec3 forward;
+  float depth_range;  // orthographic; perspective: 0
+};
+GLOAM_SHARED_SIZE(ShadowView, 128)
+
+GLOAM_SHARED_CONST int kShLightCoefficients = 36;
+/// The sharpest Phong lobe that order 6 shows without rings: its truncated kernel dips to -6 % of its peak (exponent 20:
+/// -11 %, a mirror: -17 %). Sharper materials are shown with this exponent.
+GLOAM_SHARED_CONST float kSharpestGloss = 10.0f;
+
+/// Light of the environment: order 6 for lobes up to kSharpestGloss, and how to look up its picture.
+struct EnvironmentRow {
+  vec3 sh[36];
+  float cos_rotation;
+  float sin_rotation;
+  float intensity;
+  float map_width;  // 0: no environment
+  float map_height;
+};
+GLOAM_SHARED_SIZE(EnvironmentRow, 452)
+
+GLOAM_SHARED_END
+#endif

@@ -1,0 +1,169 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "frame/shade.h"
+
+#include "shaders/frame_shaders.h"
+
+namespace gloam::frame {
+
+namespace {
+
+/// Halves, as in the EXR files that hold it: 0.05 % steps; radiance above 65504 is clipped.
+constexpr VkFormat kRadianceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+gpu::ImageRef imageLike(gpu::FrameGraph& graph, const std::string& name, const GBuffer& gbuffer) {
+  return graph.create(
+      name, gpu::ImageDesc{.format = kRadianceFormat, .width = gbuffer.width, .height = gbuffer.height});
+}
+
+/// One black pixel, for inputs of a shader that this frame does not have.
+gpu::ImageRef black(gpu::FrameGraph& graph) {
+  const auto image = graph.create("frame.black", gpu::ImageDesc{.format = kRadianceFormat});
+  graph.clear("frame.black", image);
+  return image;
+}
+
+gpu::ImageRef upsample(gpu::FrameGraph& graph, const FrameInputs& inputs, const Irradiance& term,
+                       const std::string& name) {
+  if (term.divisor == 1) return term.image;
+  const ReceiverLevel& coarse = inputs.receivers.at(term.divisor);
+  const auto full = imageLike(graph, name, inputs.gbuffer);
+  graph.compute("frame.upsample", frame_upsample_spv)
+      .read("frame_view", inputs.view)
+      .read("depth", inputs.gbuffer.depth)
+      .read("normals", inputs.gbuffer.normals)
+      .read("receiver_normal", coarse.normal_depth)
+      .read("coarse", term.image)
+      .write("full", full)
+      .push(static_cast<std::uint32_t>(term.divisor))
+      .dispatchOver(full);
+  return full;
+}
+
+}  // namespace
+
+gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs) {
+  if (inputs.shadow_maps.light_count == 0) return {};
+  const auto local_light = imageLike(graph, "frame.local_light", inputs.gbuffer);
+  graph.compute("frame.local_light", frame_local_light_spv)
+      .read("frame_view", inputs.view)
+      .read("lights", inputs.shadow_maps.lights)
+      .read("shadow_views", inputs.shadow_maps.views)
+      .read("shadow_maps", inputs.shadow_maps.maps)
+      .read("depth", inputs.gbuffer.depth)
+      .read("normals", inputs.gbuffer.normals)
+      .read("diffuse", inputs.gbuffer.diffuse)
+      .read("specular", inputs.gbuffer.specular)
+      .write("local_light", local_light)
+      .push(inputs.shadow_maps.light_count)
+      .dispatchOver(local_light);
+  return local_light;
+}
+
+gpu::ImageRef gatherIrradiance(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                               Path path) {
+  const std::string name = path == Path::kDirect ? "frame.irradiance_direct" : "frame.irradiance_indirect";
+  gpu::ImageRef sum;
+  int count = 0;
+  for (const Irradiance& term : lighting.irradiance) {
+    if (term.path != path) continue;
+    const std::string suffix = "_" + std::to_string(count++);
+    const gpu::ImageRef full = upsample(graph, inputs, term, name + suffix);
+    if (!sum) {
+      sum = full;
+      continue;
+    }
+    const auto both = imageLike(graph, name + "_sum" + suffix, inputs.gbuffer);
+    graph.compute("frame.add", frame_add_spv)
+        .read("a", sum)
+        .read("b", full)
+        .write("both", both)
+        .dispatchOver(both);
+    sum = both;
+  }
+  return sum;
+}
+
+Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                   gpu::ImageRef local_light, bool background) {
+  const gpu::ImageRef direct = gatherIrradiance(graph, inputs, lighting, Path::kDirect);
+  const gpu::ImageRef indirect = gatherIrradiance(graph, inputs, lighting, Path::kIndirect);
+  // Where each sample is a pixel, these are the pictures already.
+  const std::string suffix = inputs.gbuffer.supersample == 1 ? "" : "_samples";
+  const Shaded shaded{imageLike(graph, "frame.direct" + suffix, inputs.gbuffer),
+                      imageLike(graph, "frame.indirect" + suffix, inputs.gbuffer)};
+  const gpu::ImageRef none = black(graph);
+  const auto orBlack = [&](gpu::ImageRef image) { return image ? image : none; };
+  graph.compute("frame.shade", frame_shade_spv)
+      .specialize("environment_gloss", !lighting.has_environment_gloss && !inputs.environment.empty())
+      .specialize("background", background && !inputs.environment.empty())
+      .specialize("background_alpha", background ? 1.0f : 0.0f)
+      .read("frame_view", inputs.view)
+      .read("environment", graph.uploadOne("frame.environment_row", inputs.environment.row()))
+      .sample("environment_map", inputs.environment.map(), gpu::kLinearEquirect)
+      .read("depth", inputs.gbuffer.depth)
+      .read("normals", inputs.gbuffer.normals)
+      .read("diffuse", inputs.gbuffer.diffuse)
+      .read("specular", inputs.gbuffer.specular)
+      .read("emission", inputs.gbuffer.emission)
+      .read("local_light", orBlack(local_light))
+      .read("irradiance_direct", orBlack(direct))
+      .read("irradiance_indirect", orBlack(indirect))
+      .write("direct", shaded.direct)
+      .write("indirect", shaded.indirect)
+      .dispatchOver(shaded.direct);
+  return shaded;
+}
+
+FrameImages recordResolve(gpu::FrameGraph& graph, const FrameInputs& inputs, const Shaded& shaded,
+                          bool layers) {
+  const GBuffer& gbuffer = inputs.gbuffer;
+  const int supersample = gbuffer.supersample;
+  const auto image = [&](const char* name, VkFormat format) {
+    return graph.create(name, gpu::ImageDesc{.format = format,
+                                             .width = gbuffer.width / supersample,
+                                             .height = gbuffer.height / supersample});
+  };
+  FrameImages images;
+  images.color = image("frame.color", kRadianceFormat);
+  if (supersample == 1) {
+    images.direct = shaded.direct;
+    images.indirect = shaded.indirect;
+    graph.compute("frame.resolve", frame_add_spv)
+        .read("a", images.direct)
+        .read("b", images.indirect)
+        .write("both", images.color)
+        .dispatchOver(images.color);
+  } else {
+    images.direct = image("frame.direct", kRadianceFormat);
+    images.indirect = image("frame.indirect", kRadianceFormat);
+    graph.compute("frame.resolve", frame_resolve_spv)
+        .read("direct_samples", shaded.direct)
+        .read("indirect_samples", shaded.indirect)
+        .write("color", images.color)
+        .write("direct", images.direct)
+        .write("indirect", images.indirect)
+        .push(static_cast<std::uint32_t>(supersample))
+        .dispatchOver(images.color);
+  }
+  if (!layers) return images;
+  images.normal = image("frame.normal", VK_FORMAT_R16G16B16A16_SFLOAT);
+  images.depth = image("frame.eye_depth", VK_FORMAT_R32_SFLOAT);
+  images.albedo = image("frame.albedo", VK_FORMAT_R16G16B16A16_SFLOAT);
+  images.object = image("frame.object", VK_FORMAT_R32_UINT);
+  graph.compute("frame.layers", frame_layers_spv)
+      .read("frame_view", inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("ids", gbuffer.ids)
+      .read("normals", gbuffer.normals)
+      .read("diffuse", gbuffer.diffuse)
+      .write("normal_layer", images.normal)
+      .write("depth_layer", images.depth)
+      .write("albedo_layer", images.albedo)
+      .write("object_layer", images.object)
+      .push(static_cast<std::uint32_t>(supersample))
+      .dispatchOver(images.normal);
+  return images;
+}
+
+}  // namespace gloam::frame

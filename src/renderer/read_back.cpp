@@ -1,0 +1,94 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "renderer/read_back.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gpu/format.h"
+
+namespace gloam {
+
+namespace {
+
+/// The first `channels` of an image on the device.
+Image download(const gpu::ImageRef& ref, int channels) {
+  const std::vector<float> values = ref.image().downloadFloats(ref.range().mip, ref.range().layer);
+  const int stored = gpu::channelCount(ref.format());
+  Image image(ref.width(), ref.height(), channels);
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+    for (int c = 0; c < channels; ++c)
+      image.pixels[i * std::size_t(channels) + std::size_t(c)] =
+          c < stored ? values[i * std::size_t(stored) + std::size_t(c)] : 0.0f;
+  }
+  return image;
+}
+
+glm::vec3 colorOfNumber(std::uint32_t number) {
+  if (number == 0) return glm::vec3(0.0f);
+  std::uint32_t h = number * 2654435761u;
+  h ^= h >> 15;
+  h *= 2246822519u;
+  h ^= h >> 13;
+  return glm::vec3(h & 255u, (h >> 8) & 255u, (h >> 16) & 255u) / 255.0f * 0.8f + 0.1f;
+}
+
+bool isPacked(const std::string& name) {
+  return name.ends_with("_packed");
+}
+
+}  // namespace
+
+LayeredImage readLayers(const frame::FrameImages& images) {
+  LayeredImage result;
+  result.width = images.color.width();
+  result.height = images.color.height();
+  result.add("", {"R", "G", "B", "A"}, download(images.color, 4));
+  result.add("direct", {"R", "G", "B"}, download(images.direct, 3));
+  result.add("indirect", {"R", "G", "B"}, download(images.indirect, 3));
+  if (!images.normal) return result;
+  result.add("normal", {"X", "Y", "Z"}, download(images.normal, 3));
+  result.add("depth", {"Z"}, download(images.depth, 1), ChannelType::kFloat);
+  result.add("albedo", {"R", "G", "B"}, download(images.albedo, 3));
+  result.addIds("object", "id", images.object.image().download<std::uint32_t>());
+  return result;
+}
+
+std::vector<std::string> shownNames(const gpu::FrameGraph& graph) {
+  std::vector<std::string> names;
+  for (const std::string& name : graph.imageNames()) {
+    if (!isPacked(name) && name != "frame.black") names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Image readShown(const gpu::FrameGraph& graph, const std::string& name, int width, int height) {
+  const gpu::ImageRef ref = isPacked(name) ? gpu::ImageRef() : graph.find(name);
+  if (!ref)
+    throw Error("show '" + name + "'", fmt::format("no such image in this frame; there are: {}",
+                                                   fmt::join(shownNames(graph), ", ")));
+  const gpu::FormatInfo& format = gpu::formatInfo(ref.format());
+  const Image raw = download(ref, format.channels);
+  Image shown(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int from_x = static_cast<int>(std::int64_t(x) * raw.width / width);
+      const int from_y = static_cast<int>(std::int64_t(y) * raw.height / height);
+      const float* from = raw.at(from_x, from_y);
+      float* to = shown.at(x, y);
+      if (format.numbers == gpu::Numbers::kUint) {
+        const glm::vec3 color =
+            colorOfNumber(static_cast<std::uint32_t>(from[0]) +
+                          (raw.channels > 1 ? 7919u * static_cast<std::uint32_t>(from[1]) : 0u));
+        std::copy(&color.x, &color.x + 3, to);
+      } else {
+        for (int c = 0; c < 3; ++c) to[c] = raw.channels == 1 ? from[0] : c < raw.channels ? from[c] : 0.0f;
+      }
+    }
+  }
+  return shown;
+}
+
+}  // namespace gloam

@@ -1,0 +1,156 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <gloam/renderer.h>
+
+#include <algorithm>
+
+#include "frame/frame.h"
+#include "renderer/read_back.h"
+#include "techniques/technique.h"
+
+namespace gloam {
+
+struct Renderer::Impl {
+  explicit Impl(std::unique_ptr<gpu::Device> d)
+      : device(std::move(d)), graph(*device), environment(*device) {}
+
+  Technique& techniqueFor(const std::string& name) {
+    std::unique_ptr<Technique>& technique = techniques[name];
+    if (!technique) technique = makeTechnique(name, *device);
+    return *technique;
+  }
+  void checkSize(const frame::FrameOptions& options) const;
+
+  std::unique_ptr<gpu::Device> device;
+  gpu::FrameGraph graph;
+  frame::EnvironmentLight environment;
+  std::optional<frame::GpuScene> scene;
+  std::map<std::string, std::unique_ptr<Technique>> techniques;
+  frame::FrameMemory memory;
+};
+
+namespace {
+
+constexpr int kMaxSize = 16384;
+constexpr int kMaxSupersample = 4;
+constexpr int kLeastShadowMap = 16, kLargestShadowMap = 8192;
+
+void checkRange(const char* name, int value, int low, int high) {
+  if (value < low || value > high)
+    throw Error(fmt::format("option '{}'", name), fmt::format("{} is not from {} to {}", value, low, high));
+}
+
+frame::FrameOptions frameOptions(const RenderOptions& options) {
+  checkRange("width", options.width, 1, kMaxSize);
+  checkRange("height", options.height, 1, kMaxSize);
+  checkRange("supersample", options.supersample, 1, kMaxSupersample);
+  checkRange("shadow_map_size", options.shadow_map_size, kLeastShadowMap, kLargestShadowMap);
+  return {.width = options.width,
+          .height = options.height,
+          .supersample = options.supersample,
+          .shadow_map_size = options.shadow_map_size,
+          .background = options.background,
+          .layers = options.layers,
+          .motion = options.show == "frame.motion"};
+}
+
+/// The technique's own options with the values that were given; what it does not know is an Error.
+Settings settingsFor(const TechniqueInfo& info, const Settings& given) {
+  Settings settings(info.options);
+  for (const auto& [name, value] : given.list()) settings.set(name, value);
+  return settings;
+}
+
+gpu::HostDevice hostDevice(const HostDevice& host) {
+  return {.instance = static_cast<VkInstance>(host.instance),
+          .physical_device = static_cast<VkPhysicalDevice>(host.physical_device),
+          .device = static_cast<VkDevice>(host.device),
+          .queue = static_cast<VkQueue>(host.queue),
+          .queue_family = host.queue_family};
+}
+
+}  // namespace
+
+void Renderer::Impl::checkSize(const frame::FrameOptions& options) const {
+  const std::string size =
+      fmt::format("{} x {} pixels at supersample {}", options.width, options.height, options.supersample);
+  const int longest = std::max(options.width, options.height) * options.supersample;
+  if (longest > static_cast<int>(device->limits().max_image_size))
+    throw Error("size", fmt::format("{} is beyond the {} pixels a side that {} draws at once", size,
+                                    device->limits().max_image_size, device->info().name));
+  const std::size_t needed = frame::estimateBytes(options), had = device->info().memory_bytes;
+  if (had > 0 && needed > had)
+    throw Error("size", fmt::format("{} needs {} MiB of device memory; {} has {} MiB", size, needed >> 20,
+                                    device->info().name, had >> 20));
+}
+
+Renderer::Renderer(const std::string& device)
+    : impl_(std::make_unique<Impl>(gpu::Device::create({.choice = device}))) {}
+Renderer::Renderer(const HostDevice& host)
+    : impl_(std::make_unique<Impl>(gpu::Device::adopt(hostDevice(host)))) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::setScene(const Scene& scene) {
+  impl_->scene.reset();  // frees the old one's memory first
+  impl_->scene.emplace(*impl_->device, scene);
+  impl_->memory = {};
+  setEnvironment(scene.environment);
+}
+
+void Renderer::setEnvironment(const Environment& environment) {
+  impl_->environment = frame::EnvironmentLight(*impl_->device, environment);
+}
+
+RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camera,
+                               const RenderOptions& options) {
+  const TechniqueInfo& info = gloam::technique(options.technique);
+  const Settings settings = settingsFor(info, options.settings);
+  const frame::FrameOptions frame_options = frameOptions(options);
+  impl_->checkSize(frame_options);
+  if (!impl_->scene) throw Error("renderer", "no scene was set");
+  Technique& technique = impl_->techniqueFor(info.name);
+  gpu::FrameGraph& graph = impl_->graph;
+
+  RenderedFrame result;
+  graph.begin();
+  graph.setTimed(options.timings);
+  const frame::FrameImages images = frame::recordFrame(
+      graph, *impl_->scene, impl_->environment, posed, camera, frame_options,
+      [&](gpu::FrameGraph& g, const frame::FrameInputs& inputs) {
+        return technique.record(g, inputs, settings);
+      },
+      impl_->memory, result.warnings);
+  graph.execute();
+  graph.wait();
+  result.layers = readLayers(images);
+  if (!options.show.empty())
+    result.layers.add(options.show, {"R", "G", "B"},
+                      readShown(graph, options.show, options.width, options.height));
+  if (options.timings) {
+    for (const gpu::PassTime& time : graph.times()) result.passes.push_back({time.name, time.milliseconds});
+  }
+  result.memory_bytes = impl_->device->memoryBytes();
+  return result;
+}
+
+std::vector<std::string> Renderer::imageNames() const {
+  return shownNames(impl_->graph);
+}
+
+DeviceInfo Renderer::device() const {
+  const gpu::DeviceInfo& info = impl_->device->info();
+  return {info.index, info.name, info.driver, info.software};
+}
+
+int Renderer::validationMessages() const {
+  return static_cast<int>(gpu::validationMessages());
+}
+
+Image toDisplay(const LayeredImage& layers, const DisplayOptions& options) {
+  return toneMapped(layers.image("", {"R", "G", "B", "A"}, "frame"), options);
+}
+
+}  // namespace gloam

@@ -1,0 +1,141 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sloan, Kautz, Snyder 2002, "Precomputed radiance transfer for real-time rendering in dynamic, low-frequency lighting
+// environments", sections 3 and 4: E_p = M_p . L, the light rotated into the object's axes. Differs from the paper: transfer
+// is stored without the receiver's albedo, the direct and the interreflected part apart, and vertices' light is interpolated
+// by a compute pass over the G-buffer. Rows PRT-1, PRT-4.
+#include "techniques/prt/prt.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/transforms.h"
+#include "shaders/prt_shaders.h"
+
+namespace gloam::prt {
+
+namespace {
+
+frame::Window windowOf(const std::string& name) {
+  if (name == "hann") return frame::Window::kHann;
+  if (name == "lanczos") return frame::Window::kLanczos;
+  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
+}
+
+/// The light in each lit instance's axes, end to end.
+std::vector<glm::vec3> rotatedLights(const sh::ShRgb& light, const frame::GpuScene& scene,
+                                     const TransferBuffers& transfer) {
+  std::vector<glm::vec3> lights;
+  for (const std::uint32_t i : transfer.litInstances()) {
+    const glm::mat3 world_from_object = rotationFactor(glm::mat3(scene.instances()[i].world_from_object));
+    const sh::ShRgb turned = sh::rotate(glm::transpose(world_from_object), light);
+    lights.insert(lights.end(), turned.coefficients().begin(), turned.coefficients().end());
+  }
+  return lights;
+}
+
+/// Adds "prt.vertices", once a chunk; every vertex's irradiance.
+gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const TransferBuffers& transfer, gpu::BufferRef lights) {
+  const auto output = graph.create("prt.vertex_light",
+                                   gpu::BufferDesc{.bytes = transfer.outputVertices() * sizeof(VertexLight)});
+  const gpu::Limits& limits = graph.device().limits();
+  for (const TransferChunk& chunk : transfer.chunks()) {
+    const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
+    const std::uint32_t rows = (chunk.block_count + columns - 1) / columns;
+    graph.compute("prt.vertices", prt_vertices_spv)
+        .specialize("coefficients", transfer.order() * transfer.order())
+        .specialize("has_indirect", transfer.hasIndirect())
+        .specialize("half_float", transfer.options().half_float)
+        .read("blocks", chunk.blocks)
+        .read("transfer_direct", chunk.direct)
+        .read("transfer_indirect", chunk.indirect)
+        .read("lights", lights)
+        .write("vertex_light", output)
+        .push(chunk.block_count)
+        .dispatch(columns, rows);
+  }
+  return output;
+}
+
+UnbakedRow unbakedRow(const sh::ShRgb& light) {
+  const sh::ShRgb irradiance = sh::convolve(light, sh::clampedCosine(light.order));
+  UnbakedRow row{};
+  for (int i = 0; i < irradiance.size(); ++i) row.sh[i] = irradiance[i];
+  return row;
+}
+
+}  // namespace
+
+const TechniqueInfo& info() {
+  static const std::vector<Option> options = {
+      {.name = "order",
+       .default_value = 0,
+       .minimum = 0,
+       .maximum = 6,
+       .help = "bands to use; 0: all that are baked"},
+      {.name = "window",
+       .default_value = std::string("none"),
+       .choices = {"none", "hann", "lanczos", "auto"},
+       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"},
+      {.name = "indirect", .default_value = true, .help = "light between surfaces, where it is baked"},
+      {.name = "half_float",
+       .default_value = false,
+       .help = "keep transfer as halves on the device: half the memory"}};
+  static const TechniqueInfo info = {
+      .name = "prt",
+      .summary =
+          "precomputed radiance transfer: soft shadows and light between rigid surfaces, under any distant "
+          "light",
+      .covers = {.environment_direct = true, .environment_indirect = true, .local_direct = true},
+      .options = options,
+      .needs_bake = true};
+  return info;
+}
+
+const TransferBuffers& Prt::transferFor(const frame::FrameInputs& inputs, const TransferOptions& options) {
+  const std::uint64_t revision = inputs.scene.layoutRevision();
+  if (transfer_ && layout_revision_ == revision && transfer_->options() == options) return *transfer_;
+  transfer_.reset();
+  transfer_.emplace(device_, inputs.scene, options);
+  layout_revision_ = revision;
+  return *transfer_;
+}
+
+frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                            const Settings& settings) {
+  const TransferBuffers& transfer =
+      transferFor(inputs, {.order = settings.integer("order"), .half_float = settings.flag("half_float")});
+  if (!transfer.unbakedMeshes().empty())
+    inputs.warnings.push_back(fmt::format("lit without shadows, as they move or are not baked: {}",
+                                          fmt::join(transfer.unbakedMeshes(), ", ")));
+  if (inputs.environment.empty()) return {};
+  const sh::ShRgb light =
+      frame::windowed(inputs.environment.sh(), transfer.order(), windowOf(settings.choice("window")));
+  const gpu::BufferRef lights = graph.upload("prt.lights", rotatedLights(light, inputs.scene, transfer));
+  const gpu::BufferRef vertex_light = lightVertices(graph, transfer, lights);
+
+  const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                            .width = inputs.gbuffer.width,
+                            .height = inputs.gbuffer.height};
+  const auto direct = graph.create("prt.irradiance_direct", desc);
+  const auto indirect = graph.create("prt.irradiance_indirect", desc);
+  auto& pixels = graph.compute("prt.pixels", prt_pixels_spv)
+                     .specialize("order", transfer.order())
+                     .read("frame_view", inputs.view)
+                     .read("ids", inputs.gbuffer.ids)
+                     .read("normals", inputs.gbuffer.normals)
+                     .read("first_outputs", transfer.firstOutputs())
+                     .read("vertex_light", vertex_light)
+                     .read("unbaked", graph.uploadOne("prt.unbaked", unbakedRow(light)))
+                     .write("direct", direct)
+                     .write("indirect", indirect);
+  inputs.scene.bindTriangles(pixels).dispatchOver(direct);
+  frame::Lighting lighting{.irradiance = {{.image = direct, .path = frame::Path::kDirect}}};
+  if (transfer.hasIndirect() && settings.flag("indirect"))
+    lighting.irradiance.push_back({.image = indirect, .path = frame::Path::kIndirect});
+  return lighting;
+}
+
+}  // namespace gloam::prt

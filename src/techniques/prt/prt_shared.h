@@ -1,0 +1,35 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_PRT_SHARED_H
+#define GLOAM_PRT_SHARED_H
+#include "gpu/shared_types.h"
+GLOAM_SHARED_BEGIN(prt)
+
+/// Vertices that one work group lights; transfer is stored in blocks of as many.
+GLOAM_SHARED_CONST uint kBlockVertices = 64u;
+GLOAM_SHARED_CONST uint kUnbaked = 0xffffffffu;
+
+/// One work group: some vertices of one instance.
+struct VertexBlock {
+  uint transfer;  // block in the transfer buffers of this pass
+  uint light;     // first of the instance's rotated light coefficients
+  uint output_;   // where its first vertex goes
+  uint count;     // 1 to kBlockVertices
+};
+GLOAM_SHARED_SIZE(VertexBlock, 16)
+
+/// Irradiance of a vertex.
+struct VertexLight {
+  vec3 direct;
+  vec3 indirect;
+};
+GLOAM_SHARED_SIZE(VertexLight, 24)
+
+/// The world's light convolved with the clamped cosine, for what carries no transfer.
+struct UnbakedRow {
+  vec3 sh[36];
+};
+GLOAM_SHARED_SIZE(UnbakedRow, 432)
+
+GLOAM_SHARED_END
+#endif

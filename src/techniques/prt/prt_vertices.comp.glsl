@@ -1,0 +1,49 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// A vertex's irradiance: its transfer vectors times its object's light. One work group a block of vertices.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "techniques/prt/prt_shared.h"
+
+layout(constant_id = 0) const int coefficients = 25;
+layout(constant_id = 1) const bool has_indirect = true;
+layout(constant_id = 2) const bool half_float = false;
+
+layout(local_size_x = 64) in;
+layout(scalar, set = 0, binding = 0) readonly buffer Blocks { VertexBlock at[]; } blocks;
+layout(scalar, set = 0, binding = 1) readonly buffer TransferDirect { uint at[]; } transfer_direct;
+layout(scalar, set = 0, binding = 2) readonly buffer TransferIndirect { uint at[]; } transfer_indirect;
+layout(scalar, set = 0, binding = 3) readonly buffer Lights { vec3 at[]; } lights;
+layout(scalar, set = 0, binding = 4) writeonly buffer VertexLights { VertexLight at[]; } vertex_light;
+layout(scalar, push_constant) uniform Push { uint block_count; } push;
+
+/// Value number i of a buffer of floats, or of halves, two a word.
+float direct(uint i) {
+  if (!half_float) return uintBitsToFloat(transfer_direct.at[i]);
+  return unpackHalf2x16(transfer_direct.at[i >> 1])[i & 1u];
+}
+float indirect(uint i) {
+  if (!half_float) return uintBitsToFloat(transfer_indirect.at[i]);
+  return unpackHalf2x16(transfer_indirect.at[i >> 1])[i & 1u];
+}
+
+void main() {
+  uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  if (number >= push.block_count) return;
+  VertexBlock block = blocks.at[number];
+  uint lane = gl_LocalInvocationID.x;
+  if (lane >= block.count) return;
+  VertexLight sum = VertexLight(vec3(0.0), vec3(0.0));
+  uint first = block.transfer * uint(coefficients) * kBlockVertices + lane;
+  for (uint i = 0u; i < uint(coefficients); ++i) {
+    vec3 light = lights.at[block.light + i];
+    sum.direct += light * direct(first + i * kBlockVertices);
+    if (has_indirect) {
+      uint at = (block.transfer * uint(coefficients) + i) * 3u * kBlockVertices + lane;
+      sum.indirect += light * vec3(indirect(at), indirect(at + kBlockVertices), indirect(at + 2u * kBlockVertices));
+    }
+  }
+  vertex_light.at[block.output_ + lane] = sum;
+}
