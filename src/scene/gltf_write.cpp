@@ -25,12 +25,12 @@ void writeGlb(const Scene& scene, const std::filesystem::path& path, const Write
   writeMeshes(scene, groups, options, builder);
   writeCameras(scene, builder);
   writeLights(scene, builder);
-  writeNodes(scene, groups, path.string(), builder);
+  const std::vector<int> roots = writeNodes(scene, groups, path.string(), builder);
   writeSkins(scene, builder);
   writeAnimations(scene, builder);
   nlohmann::json shown = nlohmann::json::object();
   if (!scene.name.empty()) shown["name"] = scene.name;
-  if (!scene.roots.empty()) shown["nodes"] = scene.roots;
+  if (!roots.empty()) shown["nodes"] = roots;
   writeEnvironment(scene.environment, shown);
   builder.root["scene"] = builder.add("scenes", std::move(shown));
   builder.save(path);

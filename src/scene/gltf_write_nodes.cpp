@@ -23,15 +23,41 @@ Json quaternion(const glm::quat& q) {
   return {tidy(q.x), tidy(q.y), tidy(q.z), tidy(q.w)};
 }
 
-void writeTransform(const Node& node, Json& json) {
-  if (node.matrix) {
-    json["matrix"] = Json::array();
-    for (int i = 0; i < 16; ++i) json["matrix"].push_back(tidy((*node.matrix)[i / 4][i % 4]));
-    return;
+void writeTrs(const glm::vec3& translation, const glm::quat& rotation, const glm::vec3& scale, Json& json) {
+  if (translation != glm::vec3(0.0f)) json["translation"] = tidyArray(translation, 3);
+  if (rotation != glm::quat(1, 0, 0, 0)) json["rotation"] = quaternion(glm::normalize(rotation));
+  if (scale != glm::vec3(1.0f)) json["scale"] = tidyArray(scale, 3);
+}
+
+/// False where the node has a matrix that no translation, rotation and scale make, which glTF forbids.
+bool writeTransform(const Node& node, Json& json) {
+  if (!node.matrix) {
+    writeTrs(node.translation, node.rotation, node.scale, json);
+    return true;
   }
-  if (node.translation != glm::vec3(0.0f)) json["translation"] = tidyArray(node.translation, 3);
-  if (node.rotation != glm::quat(1, 0, 0, 0)) json["rotation"] = quaternion(glm::normalize(node.rotation));
-  if (node.scale != glm::vec3(1.0f)) json["scale"] = tidyArray(node.scale, 3);
+  if (!decomposeTrs(*node.matrix)) return false;
+  json["matrix"] = Json::array();
+  for (int i = 0; i < 16; ++i) json["matrix"].push_back(tidy((*node.matrix)[i / 4][i % 4]));
+  return true;
+}
+
+/// Puts a node between a sheared one and its parent: together they are the matrix. What refers to the node still finds it.
+/// Returns the new node's index.
+int splitSheared(const Scene& scene, int index, GlbBuilder& builder) {
+  const Node& node = scene.nodes[std::size_t(index)];
+  const RotatedScale parts = decomposeLinear(glm::mat3(*node.matrix));
+  Json& nodes = builder.root["nodes"];
+  writeTrs(glm::vec3(0.0f), parts.inner, glm::vec3(1.0f), nodes[std::size_t(index)]);
+  Json outer = {{"children", {index}}};
+  if (!node.name.empty()) outer["name"] = node.name + " (shear)";
+  writeTrs(glm::vec3((*node.matrix)[3]), parts.outer, parts.scale, outer);
+  const int outer_index = builder.add("nodes", std::move(outer));
+  if (node.parent != kNone) {
+    for (Json& child : builder.root["nodes"][std::size_t(node.parent)]["children"]) {
+      if (child == index) child = outer_index;
+    }
+  }
+  return outer_index;
 }
 
 Json instancing(const Node& node, const std::string& place, GlbBuilder& builder) {
@@ -111,12 +137,15 @@ void writeLights(const Scene& scene, GlbBuilder& builder) {
   builder.use("KHR_lights_punctual");
 }
 
-void writeNodes(const Scene& scene, const MeshGroups& groups, const std::string& place, GlbBuilder& builder) {
-  for (const Node& node : scene.nodes) {
+std::vector<int> writeNodes(const Scene& scene, const MeshGroups& groups, const std::string& place,
+                            GlbBuilder& builder) {
+  std::vector<int> sheared;
+  for (int index = 0; index < int(scene.nodes.size()); ++index) {
+    const Node& node = scene.nodes[std::size_t(index)];
     Json json = Json::object();
     if (!node.name.empty()) json["name"] = node.name;
     if (!node.children.empty()) json["children"] = node.children;
-    writeTransform(node, json);
+    if (!writeTransform(node, json)) sheared.push_back(index);
     if (!node.meshes.empty()) {
       json["mesh"] = groups.of(node.meshes);
       if (node.skin != kNone) json["skin"] = node.skin;
@@ -131,6 +160,12 @@ void writeNodes(const Scene& scene, const MeshGroups& groups, const std::string&
     if (node.light != kNone) json["extensions"]["KHR_lights_punctual"] = {{"light", node.light}};
     builder.add("nodes", std::move(json));
   }
+  std::vector<int> roots = scene.roots;
+  for (const int index : sheared) {
+    const int outer = splitSheared(scene, index, builder);
+    std::replace(roots.begin(), roots.end(), index, outer);
+  }
+  return roots;
 }
 
 void writeSkins(const Scene& scene, GlbBuilder& builder) {

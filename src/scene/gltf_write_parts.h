@@ -26,8 +26,9 @@ void writeMeshes(const Scene& scene, const MeshGroups& groups, const WriteOption
 
 void writeCameras(const Scene& scene, GlbBuilder& builder);
 void writeLights(const Scene& scene, GlbBuilder& builder);
-/// Nodes keep their indices. `place` names the file in errors.
-void writeNodes(const Scene& scene, const MeshGroups& groups, const std::string& place, GlbBuilder& builder);
+/// Nodes keep their indices; sheared ones get another above them. Returns the roots. `place` names the file in errors.
+std::vector<int> writeNodes(const Scene& scene, const MeshGroups& groups, const std::string& place,
+                            GlbBuilder& builder);
 void writeSkins(const Scene& scene, GlbBuilder& builder);
 void writeAnimations(const Scene& scene, GlbBuilder& builder);
 

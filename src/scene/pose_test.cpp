@@ -111,6 +111,21 @@ TEST(Transforms, DecompositionIsUndoneByComposition) {
   EXPECT_FALSE(decomposeTrs(glm::scale(glm::mat4(1.0f), {1.0f, 0.0f, 1.0f})));
 }
 
+TEST(Transforms, AnyLinearMapIsTwoRotationsAndAScale) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    glm::mat3 m = randomMatrix(random);
+    if (i % 4 == 0) m[1] = 0.5f * m[0];      // flattened to a plane
+    if (i % 8 == 0) m[2] = glm::vec3(0.0f);  // or to a line
+    if (i == 1) m = glm::mat3(1.0f);
+    const RotatedScale parts = decomposeLinear(m);
+    glm::mat3 scale(0.0f);
+    for (int c = 0; c < 3; ++c) scale[c][c] = parts.scale[c];
+    const glm::mat3 again = glm::mat3_cast(parts.outer) * scale * glm::mat3_cast(parts.inner);
+    for (int c = 0; c < 3; ++c) expectNear(again[c], m[c], 1e-5f);
+  }
+}
+
 TEST(Pose, IdentityLeavesVerticesAndBounds) {
   const PosedScene posed = pose(quadScene(), 0.0f);
   ASSERT_EQ(posed.instances.size(), 1u);

@@ -76,6 +76,39 @@ std::optional<Trs> decomposeTrs(const glm::mat4& matrix) {
   return trs;
 }
 
+RotatedScale decomposeLinear(const glm::mat3& matrix) {
+  // Eigenvectors of the symmetric M^T M by Jacobi's rotations.
+  const glm::dmat3 m(matrix);
+  glm::dmat3 s = glm::transpose(m) * m, v(1.0);
+  for (int sweep = 0; sweep < 32; ++sweep) {
+    for (int p = 0; p < 3; ++p) {
+      const int q = (p + 1) % 3;
+      if (std::abs(s[q][p]) <= 1e-300) continue;
+      // The smaller of the two rotations that clear s_pq: only that one converges.
+      const double angle =
+          0.5 * std::atan2(2.0 * s[q][p] * (s[p][p] < s[q][q] ? -1.0 : 1.0), std::abs(s[p][p] - s[q][q]));
+      glm::dmat3 turn(1.0);
+      turn[p][p] = turn[q][q] = std::cos(angle);
+      turn[p][q] = std::sin(angle);
+      turn[q][p] = -std::sin(angle);
+      s = glm::transpose(turn) * s * turn;
+      v = v * turn;
+    }
+  }
+  if (glm::determinant(v) < 0.0) v[0] = -v[0];
+  const glm::dmat3 scaled = m * v;  // U times the singular values
+  glm::mat3 u = rotationFactor(glm::mat3(scaled));
+  RotatedScale result;
+  for (int c = 0; c < 3; ++c) result.scale[c] = float(glm::length(scaled[c]));
+  if (glm::determinant(u) < 0.0f) {
+    u[0] = -u[0];
+    result.scale.x = -result.scale.x;
+  }
+  result.outer = glm::normalize(glm::quat_cast(u));
+  result.inner = glm::normalize(glm::quat_cast(glm::mat3(glm::transpose(v))));
+  return result;
+}
+
 glm::mat3 rotationFactor(const glm::mat3& matrix) {
   const double size = largestColumn(matrix);
   if (!(size > 0.0) || !std::isfinite(size)) return glm::mat3(1.0f);

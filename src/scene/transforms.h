@@ -23,6 +23,15 @@ glm::mat4 composeTrs(const Trs& trs);
 /// gives it back within 1e-4 of its largest column).
 std::optional<Trs> decomposeTrs(const glm::mat4& matrix);
 
+/// Any 3x3 matrix as rotation, scale, rotation: M = R(outer) diag(scale) R(inner), its singular value decomposition. Two
+/// nodes, one within the other, can hold what one translation, rotation and scale cannot.
+struct RotatedScale {
+  glm::quat outer{1.0f, 0.0f, 0.0f, 0.0f};
+  glm::vec3 scale{1.0f};  ///< x is negative where the matrix mirrors
+  glm::quat inner{1.0f, 0.0f, 0.0f, 0.0f};
+};
+RotatedScale decomposeLinear(const glm::mat3& matrix);
+
 /// The orthogonal matrix nearest to the given one: the factor Q of its polar decomposition M = Q S, S
 /// symmetric and positive. It is a rotation, or a rotation times a reflection where M mirrors (det < 0).
 /// Baked transfer lives in the axes that it defines: a direction w of the world is transpose(Q) w in the

@@ -1,0 +1,210 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "scene/gltf_transfer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "scene/builtin_scenes.h"
+#include "scene/half_float.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Scene bakedScene(int bounces) {
+  Scene scene = makeBuiltinScene("bowl?detail=0.25");
+  auto transfer = std::make_shared<Transfer>();
+  transfer->order = 3;
+  transfer->bounces = bounces;
+  transfer->directions = 1024;
+  const std::size_t count = scene.meshes[0].vertexCount() * 9;
+  for (std::size_t i = 0; i < count; ++i) transfer->direct.push_back(std::sin(float(i)));
+  if (bounces > 0) {
+    for (std::size_t i = 0; i < 3 * count; ++i) transfer->indirect.push_back(0.3f * std::cos(float(i)));
+  }
+  scene.meshes[0].transfer = transfer;
+  return scene;
+}
+
+fs::path temporary() {
+  return fs::temp_directory_path() / "gloam_transfer_test.glb";
+}
+
+struct Glb {
+  Json json;
+  std::string binary;
+};
+
+Glb readGlb(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, 4);
+  return {Json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
+}
+
+void writeGlb(const Glb& glb, const fs::path& path) {
+  std::string text = glb.json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::ofstream file(path, std::ios::binary);
+  const auto word = [&](std::size_t value) {
+    const std::uint32_t w = std::uint32_t(value);
+    file.write(reinterpret_cast<const char*>(&w), 4);
+  };
+  file.write("glTF", 4);
+  word(2);
+  word(12 + 8 + text.size() + 8 + glb.binary.size());
+  word(text.size());
+  file << "JSON" << text;
+  word(glb.binary.size());
+  file.write("BIN\0", 4);
+  file << glb.binary;
+}
+
+Json& extensionOf(Glb& glb) {
+  return glb.json["meshes"][0]["primitives"][0]["extensions"][kTransferExtension];
+}
+
+/// Writes a baked scene, breaks it, and gives what the reader says.
+std::string messageAfter(const std::function<void(Glb&)>& breakIt) {
+  gloam::writeGlb(bakedScene(2), temporary());
+  Glb glb = readGlb(temporary());
+  breakIt(glb);
+  writeGlb(glb, temporary());
+  std::string message = "no error";
+  try {
+    loadScene(temporary().string());
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  fs::remove(temporary());
+  return message;
+}
+
+TEST(HalfFloat, EveryHalfComesBackAndRoundingIsToTheNearest) {
+  for (std::uint32_t h = 0; h < 0x10000u; ++h) {
+    const float value = floatFromHalf(std::uint16_t(h));
+    if (!std::isfinite(value)) continue;
+    ASSERT_EQ(halfFromFloat(value), h);
+    if ((h & 0x7FFFu) == 0x7BFFu) continue;
+    const float next = floatFromHalf(std::uint16_t(h + 1)), middle = 0.5f * (value + next);
+    ASSERT_EQ(halfFromFloat(middle), h & 1u ? h + 1 : h) << value;  // ties to even
+    ASSERT_EQ(halfFromFloat(std::nextafter(middle, value)), h);
+    ASSERT_EQ(halfFromFloat(std::nextafter(middle, next)), h + 1);
+  }
+  EXPECT_EQ(halfFromFloat(1e9f), 0x7BFFu);
+  EXPECT_EQ(halfFromFloat(-INFINITY), 0xFBFFu);
+  EXPECT_TRUE(std::isnan(floatFromHalf(halfFromFloat(NAN))));
+}
+
+TEST(Transfer, ComesBackExactlyAsFloatsAndRoundedAsHalves) {
+  for (const int bounces : {0, 2}) {
+    for (const bool half_float : {false, true}) {
+      const Scene scene = bakedScene(bounces);
+      gloam::writeGlb(scene, temporary(), {half_float});
+      const Scene again = loadScene(temporary().string());
+      fs::remove(temporary());
+      const Transfer& a = *scene.meshes[0].transfer;
+      ASSERT_TRUE(again.meshes[0].transfer);
+      const Transfer& b = *again.meshes[0].transfer;
+      EXPECT_EQ(b.order, 3);
+      EXPECT_EQ(b.bounces, bounces);
+      EXPECT_EQ(b.directions, 1024);
+      ASSERT_EQ(a.direct.size(), b.direct.size());
+      ASSERT_EQ(a.indirect.size(), b.indirect.size());
+      for (std::size_t i = 0; i < a.direct.size(); ++i) {
+        EXPECT_EQ(b.direct[i], half_float ? floatFromHalf(halfFromFloat(a.direct[i])) : a.direct[i]);
+      }
+    }
+  }
+}
+
+TEST(Transfer, FollowsVerticesThatTheReaderDrops) {
+  Scene scene = bakedScene(0);
+  Mesh& mesh = scene.meshes[0];
+  // Without its first triangle the first vertex is used by no other.
+  const std::size_t before = mesh.vertexCount();
+  std::vector<std::uint32_t> kept;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    if (mesh.indices[t] == 0 || mesh.indices[t + 1] == 0 || mesh.indices[t + 2] == 0) continue;
+    kept.insert(kept.end(), mesh.indices.begin() + std::ptrdiff_t(t),
+                mesh.indices.begin() + std::ptrdiff_t(t + 3));
+  }
+  mesh.indices = kept;
+  gloam::writeGlb(scene, temporary());
+  const Scene again = loadScene(temporary().string());
+  fs::remove(temporary());
+  ASSERT_LT(again.meshes[0].vertexCount(), before);
+  for (std::size_t v = 0; v < again.meshes[0].vertexCount(); ++v) {
+    for (std::size_t old = 0; old < before; ++old) {
+      if (mesh.positions[old] != again.meshes[0].positions[v] ||
+          mesh.uv_sets[0][old] != again.meshes[0].uv_sets[0][v]) {
+        continue;
+      }
+      EXPECT_EQ(again.meshes[0].transfer->direct[9 * v + 4], mesh.transfer->direct[9 * old + 4]);
+    }
+  }
+}
+
+TEST(Transfer, ChecksumIsThatOfZlib) {
+  // crc32(b"") = 0; crc32 of the bytes of the floats 1, 2, 3 and the indices 0, 1, 2 (zlib.crc32 in Python).
+  EXPECT_EQ(geometryChecksum({}, {}), "00000000");
+  const glm::vec3 p(1, 2, 3);
+  const std::uint32_t triangle[3] = {0, 1, 2};
+  EXPECT_EQ(geometryChecksum({&p, 1}, triangle), "bbc4f84e");
+}
+
+TEST(Transfer, ErrorsNameTheField) {
+  const auto contains = [](const std::string& message, const char* part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_NE(message.find(kTransferExtension), std::string::npos) << message;
+  };
+  contains(messageAfter([](Glb& g) { extensionOf(g)["version"] = 2; }), ".version: 2 is not known");
+  contains(messageAfter([](Glb& g) { extensionOf(g).erase("version"); }), ".version: missing");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["order"] = 7; }), ".order: 7");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["order"] = 4; }), ".direct: accessors[");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["order"] = "5"; }), ".order: \"5\"");
+  contains(messageAfter([](Glb& g) { extensionOf(g).erase("direct"); }), ".direct: missing");
+  contains(messageAfter([](Glb& g) { extensionOf(g).erase("indirect"); }), ".indirect: missing");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["direct"] = 999; }), ".direct: 999");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["direct"] = 0; }),
+           ".direct: accessors[0] must be SCALAR");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["bounces"] = 0; }), ".indirect: there are no bounces");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["format"] = "double"; }), ".format");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["format"] = "half"; }), ".direct: accessors[");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["geometry"] = "12345678"; }), "belongs to another mesh");
+  contains(messageAfter([](Glb& g) { extensionOf(g) = 3; }), "an object was expected");
+}
+
+TEST(Transfer, ValuesThatAreNotNumbersAreRefused) {
+  const std::string message = messageAfter([](Glb& glb) {
+    const Json& accessor = glb.json["accessors"][extensionOf(glb)["indirect"].get<std::size_t>()];
+    const std::size_t offset =
+        glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"];
+    const float nan = NAN;
+    std::memcpy(&glb.binary[offset + 40], &nan, 4);
+  });
+  EXPECT_NE(message.find(".indirect: element 10 of accessors["), std::string::npos) << message;
+}
+
+TEST(Transfer, GeometryThatChangedIsRefused) {
+  const std::string message = messageAfter([](Glb& glb) {
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    Json& accessor = glb.json["accessors"][attributes["POSITION"].get<std::size_t>()];
+    const std::size_t offset =
+        glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"];
+    glb.binary[offset + 13] = char(glb.binary[offset + 13] ^ 1);
+  });
+  EXPECT_NE(message.find("belongs to another mesh"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace gloam

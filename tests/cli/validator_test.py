@@ -1,0 +1,60 @@
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""What gloam writes, held against the Khronos glTF validator (npm's gltf-validator; skipped where node and npm lack)."""
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from harness import SOURCE, CliTest
+
+SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "columns", "lamp", "textured", "walker",
+          "mobile"]
+
+
+def missing():
+    """Why the validator cannot run, or None."""
+    if not shutil.which("node"):
+        return "node is not installed"
+    if (SOURCE / "assets/validator/index.js").exists():
+        return None
+    if not shutil.which("npm"):
+        return "npm is not installed"
+    done = subprocess.run([SOURCE / "tools/get-assets", "validator"], capture_output=True, text=True, check=False)
+    return None if done.returncode == 0 else "the validator could not be fetched: " + done.stderr.strip()[:200]
+
+
+WHY_NOT = missing()
+
+
+@unittest.skipIf(WHY_NOT, f"Khronos validator: {WHY_NOT}")
+class Validator(CliTest):
+    def validate(self, files):
+        done = subprocess.run(["node", SOURCE / "tools/validate-glb.mjs", *map(str, files)], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout.count(" 0 errors, 0 warnings"), len(files), done.stdout)
+
+    def test_built_in_scenes(self):
+        for name in SCENES:
+            self.succeed("scene", f"{name}?detail=0.5", "-o", f"{name}.glb")
+        self.validate(sorted(self.folder.glob("*.glb")))
+
+    def test_bakes(self):
+        bake = ["bake", "builtin:columns?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
+        self.succeed(*bake, "--bounces", "1", "-o", "di.glb")
+        self.succeed(*bake, "--kind", "ds", "--half", "-o", "ds.glb")
+        self.validate([self.path("di.glb"), self.path("ds.glb")])
+
+    def test_what_the_writers_own_tests_write(self):
+        scene_test = pathlib.Path(os.environ["SCENE_TEST"])
+        subprocess.run([scene_test, "--gtest_filter=WriteGlb.*"], check=True, capture_output=True,
+                       env=dict(os.environ, GLOAM_KEEP_WRITTEN=str(self.folder)))
+        files = sorted(self.folder.glob("*.glb"))
+        self.assertGreater(len(files), 2)
+        self.validate(files)
+
+
+if __name__ == "__main__":
+    unittest.main()
