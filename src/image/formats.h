@@ -7,7 +7,6 @@
 #include <gloam/image.h>
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,11 +16,6 @@ namespace gloam {
 Image readExrPicture(const std::filesystem::path& path);
 /// PNG or JPEG, decoded from sRGB: 1 to 4 channels.
 Image readPngOrJpeg(const std::filesystem::path& path);
-/// Throws Error unless every PNG chunk (length, name, data, checksum) up to IEND, every JPEG segment up to EOI, lies in the
-/// bytes: the decoder fills what is missing with zeros and says nothing.
-void checkPngIsWhole(std::span<const std::uint8_t> bytes, const std::string& place);
-void checkJpegIsWhole(std::span<const std::uint8_t> bytes, const std::string& place);
-
 /// Radiance pictures in memory; `place` names the file in errors.
 Image decodeHdr(const std::vector<std::uint8_t>& bytes, const std::string& place);
 
