@@ -79,7 +79,7 @@ void main() {
 
   if (dot(smooth_normal, geometric) < 0.0) shading = -shading;
   roughness = clamp(roughness, 0.0, 1.0);
-  Lobes lobes = makeLobes(base.rgb, clamp(metallic, 0.0, 1.0), roughness);
+  Lobes lobes = makeLobes(base.rgb, clamp(metallic, 0.0, 1.0), roughness, material.specular);
   ids = uvec2(instance_row + 1u, gl_PrimitiveID);
   normals = uvec2(packNormal(shading), packNormal(geometric));
   diffuse = vec4(lobes.diffuse, roughness);

@@ -57,13 +57,14 @@ struct MaterialRow {
   vec3 emission;
   float metallic;
   float roughness;
+  float specular;
   float normal_scale;
   float alpha_cutoff;
   uint flags;
   vec4 texture_from_uv[4];  // columns of the 2x2 part; slots as in MeshRow::first_uv
   vec2 texture_offset[4];
 };
-GLOAM_SHARED_SIZE(MaterialRow, 144)
+GLOAM_SHARED_SIZE(MaterialRow, 148)
 
 GLOAM_SHARED_CONST uint kLightDirectional = 0u;
 GLOAM_SHARED_CONST uint kLightPoint = 1u;

@@ -30,8 +30,8 @@ float phongExponent(float roughness) {
   return std::clamp(exponent, 1.0f, kMaxPhongExponent);
 }
 
-Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness) {
-  return {base_color * (1.0f - metallic), glm::mix(glm::vec3(0.04f), base_color, metallic),
+Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness, float specular) {
+  return {base_color * (1.0f - metallic), glm::mix(glm::vec3(0.04f * specular), base_color, metallic),
           phongExponent(roughness)};
 }
 

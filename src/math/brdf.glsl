@@ -21,10 +21,10 @@ float phongExponent(float roughness) {
   return clamp(2.0f / max(alpha2, 1e-12f) - 2.0f, 1.0f, kMaxPhongExponent);
 }
 
-Lobes makeLobes(vec3 base_color, float metallic, float roughness) {
+Lobes makeLobes(vec3 base_color, float metallic, float roughness, float specular) {
   Lobes lobes;
   lobes.diffuse = base_color * (1.0f - metallic);
-  lobes.specular = mix(vec3(0.04f), base_color, metallic);
+  lobes.specular = mix(vec3(0.04f * specular), base_color, metallic);
   lobes.exponent = phongExponent(roughness);
   return lobes;
 }

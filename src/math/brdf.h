@@ -27,8 +27,8 @@ inline constexpr float kMaxPhongExponent = 1.0e6f;
 
 /// n = max(1, 2 / roughness^4 - 2), at most kMaxPhongExponent.
 float phongExponent(float roughness);
-/// k_d = base (1 - metallic), k_s = mix(0.04, base, metallic).
-Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness);
+/// k_d = base (1 - metallic), k_s = mix(0.04 specular, base, metallic).
+Lobes makeLobes(const glm::vec3& base_color, float metallic, float roughness, float specular = 1.0f);
 
 /// Direction in which a mirror sends the view direction (both point away from the surface).
 glm::vec3 mirrorDirection(const glm::vec3& normal, const glm::vec3& to_view);

@@ -37,6 +37,7 @@ TEST(Brdf, MaterialIsThatOfTheDocument) {
               metal = makeLobes({0.5f, 0.6f, 0.7f}, 1.0f, 0.5f);
   EXPECT_EQ(plastic.diffuse, glm::vec3(0.5f, 0.6f, 0.7f));
   EXPECT_EQ(plastic.specular, glm::vec3(0.04f));
+  EXPECT_EQ(makeLobes(glm::vec3(0.5f), 0.0f, 0.5f, 0.0f).specular, glm::vec3(0.0f));  // no gloss at all
   EXPECT_EQ(metal.diffuse, glm::vec3(0.0f));
   EXPECT_EQ(metal.specular, glm::vec3(0.5f, 0.6f, 0.7f));
 }

@@ -128,8 +128,9 @@ TEST(Glsl, KnowsTheMaterial) {
     EXPECT_FLOAT_EQ(glsl::phongExponent(roughness), brdf::phongExponent(roughness));
     for (const float metallic : {0.0f, 0.3f, 1.0f}) {
       const glm::vec3 base(0.9f, 0.5f, 0.1f);
-      const glsl::Lobes got = glsl::makeLobes(base, metallic, roughness);
-      const brdf::Lobes want = brdf::makeLobes(base, metallic, roughness);
+      const float specular = 1.0f - 0.5f * roughness;
+      const glsl::Lobes got = glsl::makeLobes(base, metallic, roughness, specular);
+      const brdf::Lobes want = brdf::makeLobes(base, metallic, roughness, specular);
       expectNear(got.diffuse, want.diffuse, 1e-7f);
       expectNear(got.specular, want.specular, 1e-7f);
       const glm::vec3 normal = glm::normalize(glm::vec3(0.1f, 1.0f, 0.3f)),

@@ -59,6 +59,6 @@ void main() {
   shConvolveCosine4(light4);
   outputs[item].cosine4 = light4;
 
-  Lobes lobes = makeLobes(inputs[item].base_color, inputs[item].metallic, inputs[item].roughness);
+  Lobes lobes = makeLobes(inputs[item].base_color, inputs[item].metallic, inputs[item].roughness, 1.0);
   outputs[item].lobes = evaluateLobes(lobes, normal, inputs[item].to_view, direction);
 }
