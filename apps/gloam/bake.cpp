@@ -50,11 +50,19 @@ Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& 
   std::error_code ignored;
   const fs::path& checkpoint = choice.options.checkpoint;
   if (!choice.resume) fs::remove(checkpoint, ignored);
-  if (fs::exists(checkpoint, ignored)) {
-    console.remark(fmt::format("going on from {} (--no-resume starts anew)", checkpoint.string()));
+  Progress progress = console.progress();
+  if (progress.update) {  // the first report comes when scene, options and checkpoint have proved good
+    progress.update = [&console, update = progress.update](double fraction, const std::string& what) {
+      console.release();
+      update(fraction, what);
+    };
   }
   try {
-    return bakeTransfer(scene, choice.options, console.progress(), &report);
+    return bakeTransfer(scene, choice.options, progress, &report);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    if (!text.starts_with(checkpoint.string() + ":")) throw;
+    throw Error(text.substr(0, text.find("; delete it")) + "; --no-resume starts anew");
   } catch (const Interrupted&) {
     const bool kept = fs::exists(checkpoint, ignored);
     throw Interrupted(kept ? fmt::format("interrupted; the same command goes on from {}", checkpoint.string())

@@ -96,7 +96,9 @@ void Console::update(double fraction, const std::string& what) {
 
   std::string left;
   const double elapsed = secondsSince(started_), done = fraction - first_fraction_;
-  if (elapsed > 0.5 && done > 0.005 && fraction < 1.0) {
+  const bool says_itself =
+      what.find(" left") != std::string::npos;  // work that knows better than a straight line
+  if (elapsed > 0.5 && done > 0.005 && fraction < 1.0 && !says_itself) {
     left = fmt::format(", {} left", durationText(elapsed * (1.0 - fraction) / done));
   }
   if (terminal) {

@@ -53,9 +53,8 @@ Json lightsJson(const Scene& scene) {
   static constexpr const char* kTypes[] = {"directional", "point", "spot"};
   Json json = Json::array();
   for (const Light& light : scene.lights) {
-    json.push_back({{"name", light.name},
-                    {"type", kTypes[int(light.type)]},
-                    {"intensity", {light.intensity.x, light.intensity.y, light.intensity.z}}});
+    json.push_back(
+        {{"name", light.name}, {"type", kTypes[int(light.type)]}, {"intensity", shortest(light.intensity)}});
   }
   return json;
 }
@@ -65,7 +64,7 @@ Json camerasJson(const PosedScene& posed) {
   for (const PosedCamera& posed_camera : posed.cameras) {
     const Camera& camera = posed_camera.camera;
     Json entry = {{"name", camera.name}, {"type", camera.perspective ? "perspective" : "orthographic"}};
-    if (camera.perspective) entry["vertical_fov_deg"] = glm::degrees(camera.vertical_fov_rad);
+    if (camera.perspective) entry["vertical_fov_deg"] = shortest(glm::degrees(camera.vertical_fov_rad));
     json.push_back(std::move(entry));
   }
   return json;
@@ -103,9 +102,9 @@ Json materialsJson(const Scene& scene) {
   for (const Material& material : scene.materials) {
     const glm::vec4& base = material.base_color;
     json.push_back({{"name", material.name},
-                    {"base_color", {base.x, base.y, base.z, base.w}},
-                    {"metallic", material.metallic},
-                    {"roughness", material.roughness}});
+                    {"base_color", {shortest(base.x), shortest(base.y), shortest(base.z), shortest(base.w)}},
+                    {"metallic", shortest(material.metallic)},
+                    {"roughness", shortest(material.roughness)}});
   }
   return json;
 }
@@ -134,13 +133,13 @@ Json describeScene(const std::string& name, Console& console) {
                {"instances_drawn", posed.instances.size()},
                {"triangles_drawn", drawn},
                {"nodes", scene.nodes.size()},
-               {"bounds", {{"minimum", {low.x, low.y, low.z}}, {"maximum", {high.x, high.y, high.z}}}},
+               {"bounds", {{"minimum", shortest(low)}, {"maximum", shortest(high)}}},
                {"materials", materialsJson(scene)},
                {"textures", texturesJson(scene)},
                {"cameras", camerasJson(posed)},
                {"lights", lightsJson(scene)},
                {"animations", animationsJson(scene)},
-               {"duration_s", scene.duration_s()},
+               {"duration_s", shortest(scene.duration_s())},
                {"environment", scene.environment.empty() ? Json(nullptr) : Json(scene.environment.name)},
                {"extensions", extensionsJson(name)},
                {"transfer", transferJson(scene)},

@@ -35,11 +35,11 @@ void printTechniques(Console& console) {
   console.print("Techniques");
   for (const TechniqueInfo& info : techniques()) {
     console.print(
-        fmt::format("  {:<18}{}{}", info.name, info.summary, info.needs_bake ? " (baked scenes)" : ""));
-    console.print(fmt::format("  {:<18}light: {}", "", coverageText(info.covers)));
+        fmt::format("  {:<24}{}{}", info.name, info.summary, info.needs_bake ? " (baked scenes)" : ""));
+    console.print(fmt::format("  {:<24}light: {}", "", coverageText(info.covers)));
     for (const Option& option : info.options) {
       const std::string flag = fmt::format("--{}.{}", info.name, option.name);
-      console.print(fmt::format("    {:<26}{} [{}]", flag, option.help, valueText(option.default_value)));
+      console.print(fmt::format("    {:<24}{} [{}]", flag, option.help, valueText(option.default_value)));
     }
   }
 }
@@ -48,20 +48,21 @@ void printNamed(Console& console, const char* title, const std::string& prefix,
                 const std::vector<BuiltinScene>& entries) {
   console.print(title);
   for (const BuiltinScene& entry : entries) {
-    console.print(fmt::format("  {:<18}{}", prefix + entry.name, entry.summary));
+    console.print(fmt::format("  {:<24}{}", prefix + entry.name, entry.summary));
   }
 }
 
 void printDevices(Console& console, bool asked) {
-  console.print("Devices");
   try {
-    for (const DeviceInfo& device : devices()) {
+    const std::vector<DeviceInfo> found = devices();
+    console.print("Devices");
+    for (const DeviceInfo& device : found) {
       console.print(fmt::format("  {}  {} ({}{})", device.index, device.name, device.driver,
                                 device.software ? ", software" : ""));
     }
   } catch (const Error& error) {
     if (asked) throw;
-    console.print(fmt::format("  none: {}", error.what()));
+    console.print(fmt::format("Devices\n  none: {}", error.what()));
   }
 }
 

@@ -36,7 +36,7 @@ constexpr Row kSphericalHarmonics[] = {
      "Exponential of a function: series, optimal linear, and the hybrid of scaling and squaring, each with "
      "its error"},
     {"SH-9", "Windows against ringing: Hann, Lanczos, and the least that keeps a function non-negative", kYes,
-     "", "gloam render builtin:spheres --env sky:sun", "math: windowing"},
+     "", "gloam render builtin:spheres --env sky:noon", "math: windowing"},
 };
 
 constexpr Row kPrecomputedTransfer[] = {

@@ -5,7 +5,7 @@ import os
 import struct
 import unittest
 
-from harness import SMALL, CliTest, glb, hdr, spinning_triangle, triangle
+from harness import BOX, SMALL, CliTest, glb, hdr, spinning_triangle, triangle
 
 
 def broken_scenes():
@@ -67,7 +67,7 @@ class Scenes(CliTest):
 class Lights(CliTest):
     def refuse_light(self, name, data, says=()):
         self.path(name).write_bytes(data)
-        self.refuse("render", "builtin:cornell", *SMALL, "--env", name, "-o", "a.png", says=[name, *says])
+        self.refuse("render", BOX, *SMALL, "--env", name, "-o", "a.png", says=[name, *says])
 
     def test_broken_pictures(self):
         self.refuse_light("empty.hdr", b"")
@@ -79,8 +79,8 @@ class Lights(CliTest):
         self.refuse_light("magic.exr", b"\x76\x2f\x31\x01" + b"\0" * 40)
 
     def test_exr_without_the_channels_of_light(self):
-        self.succeed("render", "builtin:cornell", *SMALL, "-o", "a.exr")
-        self.succeed("render", "builtin:cornell", *SMALL, "-o", "n.exr", "--show", "normal")
+        self.succeed("render", BOX, *SMALL, "-o", "a.exr")
+        self.succeed("render", BOX, *SMALL, "-o", "n.exr", "--show", "normal")
         data = self.path("a.exr").read_bytes()
         # The header's plain G becomes a channel of another name.
         broken = data.replace(b"\0G\0", b"\0Q\0", 1)
@@ -88,8 +88,8 @@ class Lights(CliTest):
         self.refuse_light("broken.exr", broken)
 
     def test_unknown_sky(self):
-        self.refuse("render", "builtin:cornell", "--env", "sky:no-such", says=["no-such", "mild"])
-        self.refuse("render", "builtin:cornell", "--env", "none.exr", says="none.exr")
+        self.refuse("render", BOX, "--env", "sky:no-such", says=["no-such", "mild"])
+        self.refuse("render", BOX, "--env", "none.exr", says="none.exr")
 
 
 class Numbers(CliTest):
@@ -112,17 +112,17 @@ class Numbers(CliTest):
         }.items():
             for value in values:
                 with self.subTest(option=option, value=value):
-                    self.refuse("render", "builtin:cornell", *SMALL, "-o", "a.png", f"{option}={value}",
+                    self.refuse("render", BOX, *SMALL, "-o", "a.png", f"{option}={value}",
                                 says=[value] if option == "--device" else [option, value])
 
     def test_too_many_frames(self):
-        self.refuse("render", "builtin:cornell", "--animate", "0:100000", "-o", "frames", says="frames")
+        self.refuse("render", BOX, "--animate", "0:100000", "-o", "frames", says="frames")
 
     def test_technique_options(self):
         for technique in self.succeed_json("list", "--techniques")["techniques"]:
             for option in technique["options"]:
                 flag = f"--{technique['name']}.{option['name']}"
-                self.refuse("render", "builtin:cornell", f"{flag}=certainly-not", "-o", "a.png", says=["certainly-not"])
+                self.refuse("render", BOX, f"{flag}=certainly-not", "-o", "a.png", says=["certainly-not"])
 
     def test_bench(self):
         self.refuse("bench", "irradiance", "--frames", "0", says="--frames")
@@ -130,24 +130,24 @@ class Numbers(CliTest):
 
 class Outputs(CliTest):
     def test_unknown_extension_lists_the_known(self):
-        self.refuse("render", "builtin:cornell", "-o", "a.jpg", says=[".jpg", ".png", ".mp4"])
-        self.refuse("render", "builtin:cornell", "-o", "", says="--output")
+        self.refuse("render", BOX, "-o", "a.jpg", says=[".jpg", ".png", ".mp4"])
+        self.refuse("render", BOX, "-o", "", says="--output")
 
     def test_found_before_any_work(self):
         self.refuse("render", "/nowhere.glb", "-o", "no/such/a.png", says="no/such")
         self.refuse("render", "/nowhere.glb", "-o", "no/such/frames", says="no/such")
         self.refuse("render", "/nowhere.glb", "-o", "no/such/a.mp4", says="no/such")
         self.path("file").write_bytes(b"")
-        self.refuse("render", "builtin:cornell", "--orbit", "2", "-o", "file/frames", says="file")
+        self.refuse("render", BOX, "--orbit", "2", "-o", "file/frames", says="file")
 
     def test_an_input_is_not_overwritten(self):
         self.path("probe.hdr").write_bytes(hdr())
-        self.refuse("render", "builtin:cornell", "--env", "probe.hdr", "-o", "probe.hdr", says="probe.hdr")
+        self.refuse("render", BOX, "--env", "probe.hdr", "-o", "probe.hdr", says="probe.hdr")
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
     def test_no_permission(self):
         self.path("locked").mkdir(mode=0o500)
-        self.refuse("render", "builtin:cornell", "-o", "locked/a.png", says="locked/a.png")
+        self.refuse("render", BOX, "-o", "locked/a.png", says="locked/a.png")
 
     def test_no_space(self):
         if os.path.exists("/dev/full"):

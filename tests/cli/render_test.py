@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: MIT
 """gloam render and bench: pictures, frames, videos; what is asked for is what comes out."""
 import json
-import os
-import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from harness import GLOAM, SMALL, CliTest, hdr, spinning_triangle
+from harness import BOX, GLOAM, SMALL, CliTest, hdr, spinning_triangle
 
 LAYERS = {"", "direct", "indirect", "normal", "depth", "albedo", "object"}
 LIGHT = ["--env", "sky:uniform"]
@@ -17,7 +15,7 @@ LIGHT = ["--env", "sky:uniform"]
 
 class Pictures(CliTest):
     def test_png_of_the_right_size_that_is_not_black(self):
-        result = self.succeed_json("render", "builtin:cornell", *SMALL, "-o", "a.png")
+        result = self.succeed_json("render", BOX, *SMALL, "-o", "a.png")
         self.assertEqual((result["size"], result["outputs"]), ("48x32", ["a.png"]))
         self.assertEqual(result["technique"], "irradiance")
         self.assertTrue(result["passes"])
@@ -27,7 +25,7 @@ class Pictures(CliTest):
             self.assertTrue(0.01 < channel["mean"] < 0.99, channel)
 
     def test_exr_holds_all_layers_and_their_sum(self):
-        self.succeed("render", "builtin:cornell", *SMALL, "-o", "a.exr")
+        self.succeed("render", BOX, *SMALL, "-o", "a.exr")
         layers = {layer["name"] for layer in self.picture("a.exr")["layers"]}
         self.assertEqual(layers, LAYERS)
         sums, direct, indirect = self.means("a.exr"), self.means("a.exr", "direct"), self.means("a.exr", "indirect")
@@ -35,56 +33,56 @@ class Pictures(CliTest):
             self.assertGreaterEqual(sums[channel] * 1.01 + 1e-3, direct[channel] + indirect[channel])
 
     def test_default_name(self):
-        self.succeed("render", "builtin:cornell", *SMALL)
+        self.succeed("render", BOX, *SMALL)
         self.assertEqual(self.picture("cornell.png")["size"], "48x32")
 
     def test_same_command_same_bytes(self):
         for name in "a.exr", "b.exr":
-            self.succeed("render", "builtin:cornell", *SMALL, "-o", name)
+            self.succeed("render", BOX, *SMALL, "-o", name)
         self.assertEqual(self.path("a.exr").read_bytes(), self.path("b.exr").read_bytes())
 
     def test_intensity_scales_light(self):
         for name, factor in ("a.exr", 1), ("b.exr", 2):
-            self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "--env-intensity", factor, "-o", name)
+            self.succeed("render", "builtin:furnace?detail=0.25", *SMALL, *LIGHT, "--env-intensity", factor, "-o", name)
         self.assertAlmostEqual(self.means("b.exr")["R"], 2 * self.means("a.exr")["R"], delta=0.01)
 
     def test_rotation_by_a_full_turn_changes_nothing_and_half_a_turn_does(self):
         for name, turn in ("a.exr", 0), ("b.exr", 360), ("c.exr", 180):
-            self.succeed("render", "builtin:spheres", *SMALL, "--env", "sky:sun", "--env-rotation", turn, "-o", name)
+            self.succeed("render", "builtin:spheres?detail=0.25", *SMALL, "--env", "sky:sunset", "--env-rotation", turn, "-o", name)
         a, b, c = (self.means(name)["R"] for name in ("a.exr", "b.exr", "c.exr"))
         self.assertAlmostEqual(a, b, delta=1e-3 * a)
         self.assertGreater(abs(a - c), 1e-3 * a)
 
     def test_probe_from_a_file(self):
         self.path("probe.hdr").write_bytes(hdr(8, 4, (128, 0, 0, 130)))
-        self.succeed("render", "builtin:furnace", *SMALL, "--env", "probe.hdr", "-o", "a.exr")
+        self.succeed("render", "builtin:furnace?detail=0.25", *SMALL, "--env", "probe.hdr", "-o", "a.exr")
         means = self.means("a.exr")
         self.assertGreater(means["R"], 1.5)
         self.assertLess(means["G"], 0.01)
 
     def test_without_background_alpha_is_coverage(self):
-        self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "--no-background", "-o", "a.exr")
+        self.succeed("render", "builtin:furnace?detail=0.25", *SMALL, *LIGHT, "--no-background", "-o", "a.exr")
         self.assertTrue(0.01 < self.means("a.exr")["A"] < 0.99)
-        self.succeed("render", "builtin:furnace", *SMALL, *LIGHT, "-o", "b.exr")
+        self.succeed("render", "builtin:furnace?detail=0.25", *SMALL, *LIGHT, "-o", "b.exr")
         self.assertAlmostEqual(self.means("b.exr")["A"], 1.0, places=3)
 
     def test_exposure_and_tone_map(self):
         means = []
         for options in ["--exposure", "0"], ["--exposure", "-1"], ["--exposure", "auto"], ["--tone-map", "none"]:
-            self.succeed("render", "builtin:cornell", *SMALL, *options, "-o", "a.png")
+            self.succeed("render", BOX, *SMALL, *options, "-o", "a.png")
             means.append(self.means("a.png")["G"])
         self.assertGreater(means[0], means[1])
         self.assertEqual(len(set(means)), 4)
 
     def test_layers_can_be_shown(self):
         for layer in LAYERS - {""}:
-            self.succeed("render", "builtin:cornell", *SMALL, "--show", layer, "-o", "a.png")
+            self.succeed("render", BOX, *SMALL, "--show", layer, "-o", "a.png")
 
     def test_images_of_a_technique_can_be_shown(self):
-        line = self.refuse("render", "builtin:cornell", *SMALL, "--show", "nrmal", says="nrmal")
+        line = self.refuse("render", BOX, *SMALL, "--show", "nrmal", says="nrmal")
         names = [word.strip(",") for word in line.split() if "." in word]
         self.assertTrue(names, line)
-        self.succeed("render", "builtin:cornell", *SMALL, "--show", names[0], "-o", "a.png")
+        self.succeed("render", BOX, *SMALL, "--show", names[0], "-o", "a.png")
 
     def test_remarks_and_quiet(self):
         self.path("bare.glb").write_bytes(spinning_triangle())
@@ -95,7 +93,7 @@ class Pictures(CliTest):
 
     def test_a_picture_is_replaced_whole(self):
         self.path("a.png").write_bytes(b"old")
-        self.succeed("render", "builtin:cornell", *SMALL, "-o", "a.png")
+        self.succeed("render", BOX, *SMALL, "-o", "a.png")
         self.assertEqual(self.picture("a.png")["size"], "48x32")
 
 
@@ -138,7 +136,7 @@ class Motion(CliTest):
         self.assertEqual(alphas[2], 0, "after 1 s the triangle is out of the picture")
 
     def test_animation_to_a_folder(self):
-        result = self.succeed_json("render", "a.glb", *SMALL, *LIGHT, "--animate", "0:1", "--fps", "4", "-o", "frames")
+        result = self.succeed_json("render", "a.glb", *SMALL, "--animate", "0:1", "--fps", "4", "-o", "frames")
         names = [f"frames/frame_{i:04}.png" for i in range(4)]
         self.assertEqual(result["outputs"], names)
         self.assertEqual(sorted(f"frames/{p.name}" for p in self.path("frames").iterdir()), names)
@@ -184,9 +182,9 @@ class Motion(CliTest):
 class Settings(CliTest):
     def test_file_sets_what_the_command_line_does_not(self):
         self.path("s.json").write_text(json.dumps({"size": "20x10", "env": "sky:uniform", "env_rotation": 90, "quiet": True}))
-        result = self.succeed_json("render", "builtin:cornell", "--settings", "s.json", "-o", "a.png")
+        result = self.succeed_json("render", BOX, "--settings", "s.json", "-o", "a.png")
         self.assertEqual(result["size"], "20x10")
-        result = self.succeed_json("render", "builtin:cornell", "--size", "8x8", "--settings", "s.json", "-o", "a.png")
+        result = self.succeed_json("render", BOX, "--size", "8x8", "--settings", "s.json", "-o", "a.png")
         self.assertEqual(result["size"], "8x8")
 
     def test_bad_files(self):
@@ -194,20 +192,20 @@ class Settings(CliTest):
                            ('{"size": [1]}', "size"), ('{"prt": {"no_such": 1}}', "prt.no_such"), ("[" * 100000, "s.json"),
                            ('{"technique": "no"}', "no")):
             self.path("s.json").write_text(text)
-            self.refuse("render", "builtin:cornell", "--settings", "s.json", says=says)
-        self.refuse("render", "builtin:cornell", "--settings", "none.json", says="none.json")
+            self.refuse("render", BOX, "--settings", "s.json", says=says)
+        self.refuse("render", BOX, "--settings", "none.json", says="none.json")
 
 
 class Bench(CliTest):
     def test_json_and_table(self):
-        result = self.succeed_json("bench", "irradiance", "builtin:cornell", *SMALL, "--frames", "3")
-        self.assertEqual((result["scene"], result["size"], result["frames"]), ("builtin:cornell", "48x32", 3))
+        result = self.succeed_json("bench", "irradiance", BOX, *SMALL, "--frames", "3")
+        self.assertEqual((result["scene"], result["size"], result["frames"]), (BOX, "48x32", 3))
         self.assertTrue(result["device"])
         self.assertGreater(result["frame_ms"], 0)
         self.assertGreater(result["memory_bytes"], 0)
         for entry in result["passes"]:
             self.assertLessEqual(entry["median_ms"], entry["p95_ms"] + 1e-9, entry)
-        out = self.succeed("bench", "irradiance", "builtin:cornell", *SMALL, "--frames", "2").out
+        out = self.succeed("bench", "irradiance", BOX, *SMALL, "--frames", "2").out
         for entry in result["passes"]:
             self.assertIn(entry["name"], out)
 
