@@ -5,6 +5,7 @@
 #include <gloam/sh.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -110,15 +111,15 @@ TEST(Glsl, MultipliesFunctions) {
 }
 
 TEST(Glsl, ProductFilesAreWhatTheGeneratorWrites) {
-  const std::string folder = std::string(__FILE__).substr(0, std::string(__FILE__).rfind('/'));
+  const std::filesystem::path folder = std::filesystem::path(__FILE__).parent_path();
   const auto contents = [&folder](const char* name) {
     std::stringstream text;
-    text << std::ifstream(folder + name).rdbuf();
+    text << std::ifstream(folder / name).rdbuf();
     return text.str();
   };
-  EXPECT_TRUE(contents("/sh_product.glsl") == sh::productGlsl(2, 4))
+  EXPECT_TRUE(contents("sh_product.glsl") == sh::productGlsl(2, 4))
       << "out of date: sh_write_glsl " << folder;
-  EXPECT_TRUE(contents("/sh_product_high.glsl") == sh::productGlsl(5, 6))
+  EXPECT_TRUE(contents("sh_product_high.glsl") == sh::productGlsl(5, 6))
       << "out of date: sh_write_glsl " << folder;
 }
 

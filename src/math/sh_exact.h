@@ -18,36 +18,49 @@ constexpr int absolute(int m) {
 
 constexpr double squareRoot(double value) {
   double root = value > 1.0 ? value : 1.0;
-  for (int i = 0; i < 60; ++i) root = 0.5 * (root + value / root);
+  for (double next = 0.5 * (root + value / root); next < root; next = 0.5 * (root + value / root))
+    root = next;
   return root;
 }
 
-/// Coefficients of a polynomial in z, lowest first.
-using Polynomial = std::array<double, 24>;
+/// A polynomial in z, lowest coefficient first.
+struct Polynomial {
+  std::array<double, 16> c{};
+  std::size_t degree = 0;
+};
 
 constexpr Polynomial times(const Polynomial& a, const Polynomial& b) {
-  Polynomial product{};
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i] == 0.0) continue;
-    for (std::size_t j = 0; i + j < product.size(); ++j) product[i + j] += a[i] * b[j];
+  Polynomial product;
+  product.degree = a.degree + b.degree;
+  for (std::size_t i = 0; i <= a.degree; ++i) {
+    if (a.c[i] == 0.0) continue;
+    for (std::size_t j = 0; j <= b.degree; ++j) product.c[i + j] += a.c[i] * b.c[j];
   }
   return product;
 }
 
-/// Legendre's P_l by Bonnet's recursion, then its m-th derivative.
+constexpr double valueOf(const Polynomial& polynomial, double z) {
+  double value = 0.0;
+  for (std::size_t i = polynomial.degree + 1; i-- > 0;) value = value * z + polynomial.c[i];
+  return value;
+}
+
+/// Legendre's P_l by Bonnet's recursion, then its m-th derivative, 0 <= m <= l.
 constexpr Polynomial legendreDerivative(int l, int m) {
-  Polynomial before{1.0}, now{0.0, 1.0};
+  Polynomial before{{1.0}, 0}, now{{0.0, 1.0}, 1};
   if (l == 0) now = before;
   for (int n = 1; n < l; ++n) {
-    Polynomial next{};
-    for (std::size_t i = 0; i < next.size(); ++i)
-      next[i] = ((i > 0 ? (2 * n + 1) * now[i - 1] : 0.0) - n * before[i]) / (n + 1);
+    Polynomial next;
+    next.degree = now.degree + 1;
+    for (std::size_t i = 0; i <= next.degree; ++i)
+      next.c[i] = ((i > 0 ? (2 * n + 1) * now.c[i - 1] : 0.0) - n * before.c[i]) / (n + 1);
     before = now;
     now = next;
   }
-  for (int derivative = 0; derivative < m; ++derivative)
-    for (std::size_t i = 0; i < now.size(); ++i)
-      now[i] = i + 1 < now.size() ? static_cast<double>(i + 1) * now[i + 1] : 0.0;
+  for (int derivative = 0; derivative < m; ++derivative) {
+    for (std::size_t i = 0; i < now.degree; ++i) now.c[i] = static_cast<double>(i + 1) * now.c[i + 1];
+    now.c[now.degree--] = 0.0;
+  }
   return now;
 }
 
@@ -75,21 +88,31 @@ constexpr double azimuthIntegral(int a, int b, int c) {
   return scale * 0.25 * (turn(p - q - r) + turn(p - q + r) + s * turn(p + q - r) + s * turn(p + q + r));
 }
 
-/// Integral of y_(la,ma) y_(lb,mb) y_(lc,mc) over the sphere.
-constexpr double tripleIntegral(int la, int ma, int lb, int mb, int lc, int mc) {
-  if ((la + lb + lc) % 2 != 0 || lc > la + lb || la > lb + lc || lb > la + lc) return 0.0;
-  const double azimuth = azimuthIntegral(ma, mb, mc);
+/// N_lm p_lm(z) of one function, and its m.
+struct PolarPart {
+  Polynomial polynomial;
+  int l = 0, m = 0;
+};
+
+constexpr PolarPart polarPart(int l, int m) {
+  PolarPart part{legendreDerivative(l, absolute(m)), l, m};
+  for (double& c : part.polynomial.c) c *= normalization(l, m);
+  return part;
+}
+
+/// Integral of y_a y_b y_c over the sphere.
+constexpr double tripleIntegral(const PolarPart& a, const PolarPart& b, const PolarPart& c) {
+  if ((a.l + b.l + c.l) % 2 != 0 || c.l > a.l + b.l || a.l > b.l + c.l || b.l > a.l + c.l) return 0.0;
+  const double azimuth = azimuthIntegral(a.m, b.m, c.m);
   if (azimuth == 0.0) return 0.0;
-  Polynomial integrand =
-      times(times(legendreDerivative(la, absolute(ma)), legendreDerivative(lb, absolute(mb))),
-            legendreDerivative(lc, absolute(mc)));
+  Polynomial integrand = times(times(a.polynomial, b.polynomial), c.polynomial);
   // sin^(|ma| + |mb| + |mc|) theta is a power of 1 - z^2, for the sum rule makes the exponent even.
-  const int power = (absolute(ma) + absolute(mb) + absolute(mc)) / 2;
-  for (int i = 0; i < power; ++i) integrand = times(integrand, Polynomial{1.0, 0.0, -1.0});
+  const int power = (absolute(a.m) + absolute(b.m) + absolute(c.m)) / 2;
+  for (int i = 0; i < power; ++i) integrand = times(integrand, Polynomial{{1.0, 0.0, -1.0}, 2});
   double polar = 0.0;
-  for (std::size_t i = 0; i < integrand.size(); i += 2)
-    polar += integrand[i] * 2.0 / static_cast<double>(i + 1);
-  return azimuth * polar * normalization(la, ma) * normalization(lb, mb) * normalization(lc, mc);
+  for (std::size_t i = 0; i <= integrand.degree; i += 2)
+    polar += integrand.c[i] * 2.0 / static_cast<double>(i + 1);
+  return azimuth * polar;
 }
 
 /// y_lm as a sum of monomials x^a y^b z^c on the unit sphere.
@@ -108,12 +131,12 @@ constexpr Monomials monomials(int l, int m) {
   const int power = absolute(m);
   const double scale = normalization(l, m) * (m == 0 ? 1.0 : squareRoot(2.0));
   for (int c = 0; c <= l - power; ++c) {
-    if (p[static_cast<std::size_t>(c)] == 0.0) continue;
+    if (p.c[static_cast<std::size_t>(c)] == 0.0) continue;
     double binomial = 1.0;  // (x + i y)^power = sum of binomial x^(power - b) (i y)^b
     for (int b = 0; b <= power; ++b) {
       if ((b % 2 != 0) == (m < 0)) {
         const double sign = b % 4 < 2 ? 1.0 : -1.0;
-        const double factor = scale * sign * binomial * p[static_cast<std::size_t>(c)];
+        const double factor = scale * sign * binomial * p.c[static_cast<std::size_t>(c)];
         sum.terms[static_cast<std::size_t>(sum.count++)] = {power - b, b, c, factor};
       }
       binomial = binomial * (power - b) / (b + 1);

@@ -39,19 +39,13 @@ Coefficients<T> projectWith(int order, const Function& function, int rings) {
   return result;
 }
 
-double valueOf(const exact::Polynomial& polynomial, double z) {
-  double value = 0.0;
-  for (std::size_t i = polynomial.size(); i-- > 0;) value = value * z + polynomial[i];
-  return value;
-}
-
 /// Zonal coefficients of max(0, t), t the cosine from the axis.
 Zh ramp(int order) {
   Zh zonal{order, {}};
   for (int l = 0; l < order; ++l) {
     const exact::Polynomial legendre = exact::legendreDerivative(l, 0);
     double integral = 0.0;
-    for (int i = 0; i <= l; ++i) integral += legendre[static_cast<std::size_t>(i)] / (i + 2);
+    for (int i = 0; i <= l; ++i) integral += legendre.c[static_cast<std::size_t>(i)] / (i + 2);
     zonal[l] = static_cast<float>(2.0 * exact::kPi * exact::normalization(l, 0) * integral);
   }
   return zonal;
@@ -80,8 +74,9 @@ Zh discZonal(int order, float half_angle_rad) {
   Zh zonal{order, {}};
   for (int l = 0; l < order; ++l) {
     const double integral =
-        l == 0 ? 2.0 * half_sine * half_sine
-               : sine * sine * valueOf(exact::legendreDerivative(l, 1), std::cos(angle)) / (l * (l + 1));
+        l == 0
+            ? 2.0 * half_sine * half_sine
+            : sine * sine * exact::valueOf(exact::legendreDerivative(l, 1), std::cos(angle)) / (l * (l + 1));
     zonal[l] = static_cast<float>(2.0 * exact::kPi * exact::normalization(l, 0) * integral);
   }
   return zonal;

@@ -39,12 +39,6 @@ std::vector<double> azimuthIntegrals(int width) {
   return table;
 }
 
-double valueOf(const exact::Polynomial& polynomial, double z) {
-  double value = 0.0;
-  for (std::size_t i = 2 * kMaxOrder; i-- > 0;) value = value * z + polynomial[i];
-  return value;
-}
-
 /// N p(z) sin^|m| of all (l, |m|), at index(l, |m|).
 struct PolarBasis {
   std::array<exact::Polynomial, kMaxCoefficients> polynomial;
@@ -59,7 +53,7 @@ struct PolarBasis {
   }
   double at(int l, int m, double z, double radius) const {
     const auto i = static_cast<std::size_t>(index(l, m));
-    double value = norm[i] * valueOf(polynomial[i], z);
+    double value = norm[i] * exact::valueOf(polynomial[i], z);
     for (int k = 0; k < m; ++k) value *= radius;
     return value;
   }

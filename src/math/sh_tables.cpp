@@ -15,9 +15,18 @@ constexpr int bandOf(int i) {
   return l;
 }
 
-constexpr double exactGamma(int i, int j, int k) {
-  const int a = bandOf(i), b = bandOf(j), c = bandOf(k);
-  const double value = exact::tripleIntegral(a, i - a * (a + 1), b, j - b * (b + 1), c, k - c * (c + 1));
+constexpr std::array<exact::PolarPart, kMaxCoefficients> makePolarParts() {
+  std::array<exact::PolarPart, kMaxCoefficients> parts{};
+  for (int i = 0; i < kMaxCoefficients; ++i) {
+    const int l = bandOf(i);
+    parts[static_cast<std::size_t>(i)] = exact::polarPart(l, i - l * (l + 1));
+  }
+  return parts;
+}
+constexpr std::array<exact::PolarPart, kMaxCoefficients> kPolarParts = makePolarParts();
+
+constexpr double exactGamma(std::size_t i, std::size_t j, std::size_t k) {
+  const double value = exact::tripleIntegral(kPolarParts[i], kPolarParts[j], kPolarParts[k]);
   return value < 1e-12 && value > -1e-12 ? 0.0 : value;  // the least true entry is 0.0096
 }
 
@@ -29,15 +38,15 @@ struct Triples {
 constexpr Triples makeTriples() {
   Triples made;
   std::size_t count = 0;
-  for (int k = 0; k < kMaxCoefficients; ++k) {
-    for (int j = 0; j <= k; ++j)
-      for (int i = 0; i <= j; ++i) {
+  for (std::size_t k = 0; k < kMaxCoefficients; ++k) {
+    for (std::size_t j = 0; j <= k; ++j)
+      for (std::size_t i = 0; i <= j; ++i) {
         const double value = exactGamma(i, j, k);
         if (value == 0.0) continue;
         made.triples[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
                                  static_cast<std::uint8_t>(k), static_cast<float>(value)};
       }
-    made.count[static_cast<std::size_t>(bandOf(k) + 1)] = count;
+    made.count[static_cast<std::size_t>(bandOf(static_cast<int>(k)) + 1)] = count;
   }
   return made;
 }
