@@ -7,7 +7,7 @@
 // coefficients; coefficient (l, m) stands at l (l + 1) + m. The basis takes world x, y, z as they are.
 // Directions are unit vectors. Every function that takes an order throws Error where it is not 1 to 6;
 // results are relative to the vector's norm exact to 1e-5 (docs/sh.md has the measured figures). Shaders have
-// the same functions in math/sh.glsl.
+// the same functions in math/sh.glsl. One header, though long: it is the manual of the room.
 #pragma once
 
 #include <gloam/error.h>
