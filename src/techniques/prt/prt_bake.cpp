@@ -99,12 +99,12 @@ void runPasses(const BakePasses& passes, BakeState& state, BakeMeter& meter, Bak
     const auto start = now();
     if (state.pass == 0) {
       report.rays = runPass(state, meter, [&](std::size_t b) { return passes.shadowBlock(b, state); });
-      passes.fillBuried(state, std::size_t(state.coefficients), state.direct);
+      passes.fillHidden(state, std::size_t(state.coefficients), state.direct);
       report.first_pass_s = since(start);
     } else {
       report.bounce_rays +=
           runPass(state, meter, [&](std::size_t b) { return passes.bounceBlock(b, state); });
-      passes.fillBuried(state, state.row, state.next);
+      passes.fillHidden(state, state.row, state.next);
       report.bounces_s += since(start);
     }
     state.finishPass();

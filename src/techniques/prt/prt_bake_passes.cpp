@@ -29,6 +29,10 @@ constexpr int kProbes = 128;
 // point behind a leaf, so there only being shut in counts.
 constexpr float kBuriedBySheets = 1.0f / 3.0f;
 constexpr float kBuriedByAll = 0.9f;
+// A point is cramped where nearly all that it sees is nearer than half the spacing of its mesh: under the rounded edge of
+// a box, say. Its darkness is real, but its mesh would spread it over whole cells.
+constexpr float kCramped = 0.6f;
+constexpr float kCrampedReach = 0.5f;
 
 }  // namespace
 
@@ -60,34 +64,36 @@ bool BakePasses::isBack(int instance, int triangle, float along_normal) const {
   return along_normal * float(points_.facing[t]) > 0.0f;
 }
 
-bool BakePasses::Backs::buried() const {
-  return single_sided > kBuriedBySheets || all > kBuriedByAll;
-}
-
-BakePasses::Backs BakePasses::seenBacks(const glm::vec3& origin, const glm::vec3& normal) const {
-  Backs backs;
-  float total = 0.0f;
+Place BakePasses::placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const {
+  float total = 0.0f, near = 0.0f, backs = 0.0f, sheet_backs = 0.0f;
   for (const glm::vec3& direction : probes_) {
     const float cosine = glm::dot(direction, normal);
     if (cosine <= 0.0f) continue;
     total += cosine;
     const trace::Hit hit = tracer_.closest({origin, direction});
-    if (!hit || !isBack(hit.instance, hit.triangle, glm::dot(direction, hit.geometric_normal))) continue;
-    backs.all += cosine;
-    if (!surfaces_[std::size_t(hit.instance)].double_sided) backs.single_sided += cosine;
+    if (!hit) continue;
+    if (hit.distance < reach) near += cosine;
+    if (!isBack(hit.instance, hit.triangle, glm::dot(direction, hit.geometric_normal))) continue;
+    backs += cosine;
+    if (!surfaces_[std::size_t(hit.instance)].double_sided) sheet_backs += cosine;
   }
-  return {backs.single_sided / total, backs.all / total};
+  if (sheet_backs > kBuriedBySheets * total || backs > kBuriedByAll * total) return Place::kBuried;
+  return near > kCramped * total ? Place::kCramped : Place::kOpen;
 }
 
-// Looks for a place on the faces around a buried point that is not, the nearest first.
-bool BakePasses::moveOutside(std::size_t point, RaySite& site) const {
+// Looks for an open place on the faces around a point that is not, the nearest first. Returns whether the site was moved.
+bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
   constexpr std::size_t kMostFaces = 12;
+  const glm::vec3& normal = points_.normals[point];
+  const float reach = kCrampedReach * meshSpacing(points_, point);
+  site.place = placeOf(site.origin, normal, reach);
+  if (site.place == Place::kOpen) return false;
   const auto faces = points_.facesOf(point);
   for (const float share : {0.05f, 0.2f, 0.5f, 0.8f}) {
     for (std::size_t f = 0; f < std::min(kMostFaces, faces.size()); ++f) {
       const glm::vec3 origin = rayOriginOnFace(points_, point, faces[f], share);
-      if (seenBacks(origin, points_.normals[point]).buried()) continue;
-      site.origin = origin;
+      if (placeOf(origin, normal, reach) != Place::kOpen) continue;
+      site = {.origin = origin, .place = Place::kOpen};
       return true;
     }
   }
@@ -111,16 +117,11 @@ void BakePasses::projectPoints(std::size_t begin, std::size_t count, const std::
   projectBlocked(tables_, normals, bits, out);
 }
 
-// A point that is inside something gets another place to look from, or is marked.
+// A point that is inside something, or in a nook too small for its mesh, gets another place to look from.
 std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const {
-  const glm::vec3& normal = points_.normals[point];
-  // Who is inside something has much of the hemisphere blocked; the others are spared the question.
-  if (site.blocked_cosine <= kBuriedBySheets * kPi || !seenBacks(site.origin, normal).buried()) return 0;
-  if (!moveOutside(point, site)) {
-    site.buried = 1;
-    return 0;
-  }
-  const std::size_t rays = traceBlocked(tracer_, tables_, site.origin, normal, blocked);
+  // Such points have much of the hemisphere blocked; the others are spared the question.
+  if (site.blocked_cosine <= kBuriedBySheets * kPi || !findBetterPlace(point, site)) return 0;
+  const std::size_t rays = traceBlocked(tracer_, tables_, site.origin, points_.normals[point], blocked);
   projectPoints(point, 1, blocked, sums);
   return rays;
 }
@@ -203,7 +204,8 @@ void BakePasses::gatherPoint(std::size_t point, const BakeState& state, Scratch&
     }
     scratch.mask.set(lanes);
     scratch.ray_count += std::size_t(std::popcount(lanes));
-    tracer_.closest(scratch.rays, scratch.mask, true, scratch.hits);
+    tracer_.closest(scratch.rays, scratch.mask, false,
+                    scratch.hits);  // a fifth faster: tiles of the smaller set are wide
     addHits(scratch.hits, lanes, cosines, scratch);
   }
   // The share of the hemisphere that these directions stand for is known better from the first pass.
@@ -219,41 +221,49 @@ std::size_t BakePasses::bounceBlock(std::size_t block, BakeState& state) const {
   Scratch scratch;
   for (std::size_t point = state.blockBegin(block); point < state.blockEnd(block); ++point) {
     scratch.gathered.clear();
-    if (!state.sites[point].buried) gatherPoint(point, state, scratch);
+    if (state.sites[point].place != Place::kBuried) gatherPoint(point, state, scratch);
     gatherHits(state.previous.data(), state.coefficients, scratch.gathered, &state.next[point * state.row]);
   }
   return scratch.ray_count;
 }
 
-// Ring by ring from the nearest points that are in the open; whole meshes that are shut in keep what they have.
-void BakePasses::fillBuried(const BakeState& state, std::size_t row, std::vector<float>& values) const {
-  std::vector<std::uint32_t> open_ring(state.points);  // 0: not yet known
-  std::vector<std::uint32_t> waiting;
-  for (std::size_t p = 0; p < state.points; ++p) {
-    open_ring[p] = state.sites[p].buried ? 0 : 1;
-    if (state.sites[p].buried) waiting.push_back(std::uint32_t(p));
-  }
-  for (std::uint32_t ring = 2; !waiting.empty(); ++ring) {
-    std::vector<std::uint32_t> later;
-    for (const std::uint32_t p : waiting) {
-      std::vector<double> sum(row, 0.0);
-      int neighbours = 0;
-      for (const std::uint32_t face : points_.facesOf(p)) {
-        for (int k = 0; k < 3; ++k) {
-          const std::uint32_t q = points_.triangles[face][k];
-          if (open_ring[q] == 0 || open_ring[q] == ring) continue;
-          ++neighbours;
-          for (std::size_t i = 0; i < row; ++i) sum[i] += double(values[q * row + i]);
-        }
-      }
-      if (neighbours == 0) {
-        later.push_back(p);
-        continue;
-      }
-      for (std::size_t i = 0; i < row; ++i) values[p * row + i] = float(sum[i] / neighbours);
-      open_ring[p] = ring;
+// Mean of the neighbours whose value was known before this ring; false where there are none.
+bool BakePasses::fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known,
+                                    std::size_t row, std::vector<float>& values) const {
+  std::vector<double> sum(row, 0.0);
+  int neighbours = 0;
+  for (const std::uint32_t face : points_.facesOf(point)) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t q = points_.triangles[face][k];
+      if (!known[q] || q == point) continue;
+      ++neighbours;
+      for (std::size_t i = 0; i < row; ++i) sum[i] += double(values[q * row + i]);
     }
-    if (later.size() == waiting.size()) return;
+  }
+  for (std::size_t i = 0; i < row && neighbours > 0; ++i)
+    values[point * row + i] = float(sum[i] / neighbours);
+  return neighbours > 0;
+}
+
+// Ring by ring from the open. After the first ring what is cramped keeps its own: it lies in a gap that its mesh shows.
+// Meshes that are buried as a whole keep what they have.
+void BakePasses::fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const {
+  std::vector<std::uint8_t> known(state.points);
+  std::vector<std::uint32_t> waiting, filled;
+  for (std::size_t p = 0; p < state.points; ++p) {
+    known[p] = state.sites[p].place == Place::kOpen;
+    if (!known[p]) waiting.push_back(std::uint32_t(p));
+  }
+  for (bool first_ring = true; !waiting.empty(); first_ring = false) {
+    std::vector<std::uint32_t> later;
+    filled.clear();
+    for (const std::uint32_t p : waiting) {
+      const bool done = fillFromNeighbours(p, known, row, values);
+      const bool stays = first_ring && state.sites[p].place == Place::kCramped;
+      (done || stays ? filled : later).push_back(p);
+    }
+    if (filled.empty()) return;
+    for (const std::uint32_t p : filled) known[p] = 1;
     waiting.swap(later);
   }
 }

@@ -19,19 +19,18 @@ class BakePasses {
   std::size_t shadowBlock(std::size_t block, BakeState& state) const;
   /// M^b of one block from M^{b-1}. Returns the number of rays.
   std::size_t bounceBlock(std::size_t block, BakeState& state) const;
-  /// Points inside something take the mean of their neighbours; `row` floats a point. To be called between passes.
-  void fillBuried(const BakeState& state, std::size_t row, std::vector<float>& values) const;
+  /// Gives points that cannot show what they see (Place) the mean of their neighbours; `row` floats a point. To be called
+  /// between passes.
+  void fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const;
 
  private:
   struct Scratch;
-  struct Backs {
-    float single_sided = 0.0f, all = 0.0f;  ///< shares of the cosine-weighted hemisphere
-    bool buried() const;
-  };
-  Backs seenBacks(const glm::vec3& origin, const glm::vec3& normal) const;
+  Place placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const;
+  bool fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known, std::size_t row,
+                          std::vector<float>& values) const;
   void projectPoints(std::size_t begin, std::size_t count, const std::uint16_t* blocked, float* sums) const;
   std::size_t digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const;
-  bool moveOutside(std::size_t point, RaySite& site) const;
+  bool findBetterPlace(std::size_t point, RaySite& site) const;
   void gatherPoint(std::size_t point, const BakeState& state, Scratch& scratch) const;
   void addHits(const trace::HitPacket& hits, std::uint32_t lanes, const float* cosines,
                Scratch& scratch) const;
@@ -48,7 +47,7 @@ class BakePasses {
     glm::vec3 albedo{0.0f};  ///< where uniform
   };
   std::vector<Surface> surfaces_;  ///< [instance]
-  std::vector<glm::vec3> probes_;  ///< directions of seenBacks
+  std::vector<glm::vec3> probes_;  ///< directions of placeOf
 };
 
 }  // namespace gloam::prt

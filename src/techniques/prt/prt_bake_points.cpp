@@ -116,14 +116,13 @@ glm::vec3 raised(const BakePoints& points, std::size_t point, const glm::vec3& a
   const glm::vec3& p = points.positions[point];
   const glm::vec3& n = points.normals[point];
   const auto faces = points.facesOf(point);
-  float way = 0.0f, offset = 0.0f;
+  float offset = 0.0f;
   for (const std::uint32_t face : faces) {
     const glm::uvec3& t = points.triangles[face];
-    way += glm::length(points.centroid(face) - p);
     offset = std::max(
         offset, trace::surfaceOffset(points.positions[t.x], points.positions[t.y], points.positions[t.z]));
   }
-  const float lift = std::max(offset, kLift * way / float(faces.size()));
+  const float lift = std::max(offset, kLift * meshSpacing(points, point));
   float height = lift;
   for (const std::uint32_t face : faces) {
     const glm::vec3 normal = faceNormal(points, face, n);
@@ -151,6 +150,13 @@ BakePoints makeBakePoints(const Scene& scene, const PosedScene& posed) {
   }
   collectFaces(points);
   return points;
+}
+
+float meshSpacing(const BakePoints& points, std::size_t point) {
+  float sum = 0.0f;
+  const auto faces = points.facesOf(point);
+  for (const std::uint32_t face : faces) sum += glm::length(points.centroid(face) - points.positions[point]);
+  return sum / float(faces.size());
 }
 
 glm::vec3 rayOrigin(const BakePoints& points, std::size_t point) {

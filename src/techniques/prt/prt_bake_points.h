@@ -58,6 +58,9 @@ glm::vec3 rayOrigin(const BakePoints& points, std::size_t point);
 /// look from when the vertex itself is inside something.
 glm::vec3 rayOriginOnFace(const BakePoints& points, std::size_t point, std::uint32_t face, float share);
 
+/// Mean way from a point to the centroids of the faces around it.
+float meshSpacing(const BakePoints& points, std::size_t point);
+
 inline constexpr float kInset = 0.01f;
 inline constexpr float kLift = 0.001f;
 

@@ -20,11 +20,18 @@ namespace gloam::prt {
 /// depends on finished passes alone, so neither the order of blocks nor an interruption can show.
 inline constexpr std::size_t kBlockSize = 16;
 
+/// How a point stands to what is around it.
+enum class Place : std::uint32_t {
+  kOpen,
+  kCramped,  ///< in a nook smaller than its mesh can show; takes the transfer of open neighbours, if there are any
+  kBuried,  ///< inside something; takes the transfer of the nearest points that are not
+};
+
 /// Where a point's rays start, and whether it counts.
 struct RaySite {
   glm::vec3 origin{0.0f};
   float blocked_cosine = 0.0f;  ///< integral of max(0, n.s) over blocked directions, 0 to pi
-  std::uint32_t buried = 0;     ///< 1: inside something; takes its neighbours' transfer
+  Place place = Place::kOpen;
 };
 
 struct BakeState {

@@ -203,6 +203,23 @@ TEST(PrtBake, WhatIsHiddenInsideDoesNotDarkenWhatIsSeen) {
   }
 }
 
+// A pebble above one vertex of a coarse floor is not spread over the cells around it; a table above many is a shadow.
+TEST(PrtBake, NooksSmallerThanTheMeshDoNotBlackenIt) {
+  for (const float half : {0.1f, 2.5f}) {
+    Scene scene = sceneOf(gridMesh(4.0f, 8));
+    Mesh plate = boxMesh(glm::vec3(half, 0.01f, half), false);
+    for (glm::vec3& p : plate.positions) p.y += 0.03f;
+    addMesh(scene, plate);
+    const Scene baked = bakeTransfer(scene, shadowed());
+    const float middle = directBrightness(baked.meshes[0], 4 * 9 + 4);
+    if (half < 1.0f) {
+      EXPECT_GT(middle, 0.7f);
+    } else {
+      EXPECT_LT(middle, 0.01f);
+    }
+  }
+}
+
 // Seams of texture coordinates do not show: vertices at one place with one normal get the same bits.
 TEST(PrtBake, SeamsDoNotShow) {
   Scene scene = sceneOf(sphereMesh(8, 16));
