@@ -58,8 +58,10 @@ vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
 }
 
 void main() {
-  MaterialRow material = materials.at[meshes.at[instances.at[instance_row].mesh].material];
-  vec4 base = material.base_color * color;
+  uint mesh = instances.at[instance_row].mesh;
+  MaterialRow material = materials.at[meshes.at[mesh].material];
+  vec4 base = material.base_color;
+  if (meshes.at[mesh].first_color != kAbsent) base *= color;
   float roughness = material.roughness, metallic = material.metallic;
   vec3 glow = material.emission;
   vec3 smooth_normal = normalize(normal);

@@ -14,9 +14,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D ids;
-layout(set = 0, binding = 3) uniform writeonly image2D motion;
+layout(set = 0, binding = 1) uniform usampler2D ids;
+layout(set = 0, binding = 2) uniform writeonly image2D motion;
 
 vec2 pixelFromClip(vec4 clip) {
   return (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame_view.view.width, frame_view.view.height);

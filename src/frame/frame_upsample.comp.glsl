@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // From coarse receivers to all pixels along surfaces (row PX-8; Sloan, Govindaraju, Nowrouzezahrai, Snyder 2007): weights
-// bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised. Where all four vanish (a thin thing between coarse
-// samples), the one of the 4 x 4 around whose normal and depth fit best is taken as it is.
+// bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised. Where none of the four fits (a thin thing
+// between coarse samples), the one of the 4 x 4 around whose normal and depth fit best is taken as it is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -22,7 +22,7 @@ layout(scalar, push_constant) uniform Push { uint divisor; } push;
 
 /// Relative to the pixel's own depth: differences below it count alike.
 const float kDepthTolerance = 2e-3;
-const float kLeastWeight = 1e-4;
+const float kPoorFit = 0.05;
 
 /// How well a coarse sample stands for the pixel, 0 to 1.
 float fitness(ivec2 place, vec3 normal, float along) {
@@ -57,7 +57,7 @@ void main() {
     sum += weight * texelFetch(coarse, place, 0);
     total += weight;
   }
-  if (total < kLeastWeight) {
+  if (total < kPoorFit) {
     float best = -1.0;
     for (int i = 0; i < 16; ++i) {
       ivec2 place = clamp(base + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);

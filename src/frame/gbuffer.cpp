@@ -58,7 +58,6 @@ gpu::ImageRef recordMotion(gpu::FrameGraph& graph, const GpuScene& scene, const 
       gpu::ImageDesc{.format = VK_FORMAT_R16G16_SFLOAT, .width = gbuffer.width, .height = gbuffer.height});
   auto& pass = graph.compute("frame.motion", frame_motion_spv)
                    .read("frame_view", view)
-                   .read("depth", gbuffer.depth)
                    .read("ids", gbuffer.ids)
                    .write("motion", motion);
   scene.bindTriangles(pass).dispatchOver(motion);

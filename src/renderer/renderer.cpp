@@ -55,10 +55,17 @@ frame::FrameOptions frameOptions(const RenderOptions& options) {
           .motion = options.show == "frame.motion"};
 }
 
-/// The technique's own options with the values that were given; what it does not know is an Error.
+/// The technique's own options with the values that were given. Throws Error for those of another technique.
 Settings settingsFor(const TechniqueInfo& info, const Settings& given) {
   Settings settings(info.options);
-  for (const auto& [name, value] : given.list()) settings.set(name, value);
+  const auto values = given.list();
+  for (const auto& [name, value] : values) {
+    const bool known =
+        std::any_of(info.options.begin(), info.options.end(),
+                    [&, &wanted = name](const Option& option) { return wanted == option.name; });
+    if (!known) throw Error(fmt::format("technique {}", info.name), fmt::format("has no option '{}'", name));
+  }
+  for (const auto& [name, value] : values) settings.set(name, value);
   return settings;
 }
 

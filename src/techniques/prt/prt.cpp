@@ -105,8 +105,9 @@ const TransferBuffers& Prt::transferFor(const frame::FrameInputs& inputs, const 
 
 frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                             const Settings& settings) {
-  const TransferBuffers& transfer =
-      transferFor(inputs, {.order = settings.integer("order"), .half_float = settings.flag("half_float")});
+  const TransferBuffers& transfer = transferFor(inputs, {.order = settings.integer("order"),
+                                                         .half_float = settings.flag("half_float"),
+                                                         .chunk_bytes = chunk_bytes_});
   if (!transfer.unbakedMeshes().empty())
     inputs.warnings.push_back(fmt::format("lit without shadows, as they move or are not baked: {}",
                                           fmt::join(transfer.unbakedMeshes(), ", ")));

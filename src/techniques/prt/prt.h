@@ -16,7 +16,9 @@ const TechniqueInfo& info();
 
 class Prt : public Technique {
  public:
-  explicit Prt(gpu::Device& device) : device_(device) {}
+  /// `chunk_bytes`: largest buffer of transfer; 0: what the device takes.
+  explicit Prt(gpu::Device& device, std::size_t chunk_bytes = 0)
+      : device_(device), chunk_bytes_(chunk_bytes) {}
   /// Throws Error where no mesh of the scene carries transfer.
   frame::Lighting record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                          const Settings& settings) override;
@@ -25,6 +27,7 @@ class Prt : public Technique {
   const TransferBuffers& transferFor(const frame::FrameInputs& inputs, const TransferOptions& options);
 
   gpu::Device& device_;
+  std::size_t chunk_bytes_;
   std::optional<TransferBuffers> transfer_;
   std::uint64_t layout_revision_ = 0;
 };

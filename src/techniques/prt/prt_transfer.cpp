@@ -66,14 +66,15 @@ struct Part {
 /// Puts meshes end to end into chunks, each mesh once, cut where a chunk is full.
 class Packer {
  public:
-  Packer(gpu::Device& device, int order, bool has_indirect, bool half_float)
+  Packer(gpu::Device& device, int order, bool has_indirect, const TransferOptions& options)
       : device_(device),
         kept_(std::size_t(order) * std::size_t(order)),
         has_indirect_(has_indirect),
-        half_(half_float) {
-    const std::size_t block_bytes = kept_ * (has_indirect ? 3 : 1) * kBlockVertices * (half_float ? 2 : 4);
-    limit_ = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(device.limits().max_storage_bytes / block_bytes, 1u << 24));
+        half_(options.half_float) {
+    const std::size_t block_bytes = kept_ * (has_indirect ? 3 : 1) * kBlockVertices * (half_ ? 2 : 4);
+    const std::uint64_t bytes =
+        options.chunk_bytes > 0 ? options.chunk_bytes : device.limits().max_storage_bytes;
+    limit_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / block_bytes, 1, 1u << 24));
     chunks_.emplace_back();
     blocks_.emplace_back();
   }
@@ -172,7 +173,7 @@ void TransferBuffers::findLit(const frame::GpuScene& scene) {
 }
 
 void TransferBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& scene) {
-  Packer packer(device, order_, has_indirect_, options_.half_float);
+  Packer packer(device, order_, has_indirect_, options_);
   std::vector<std::uint32_t> first_outputs(scene.instances().size(), kUnbaked);
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const std::uint32_t mesh_index = scene.instances()[lit_[i]].mesh;

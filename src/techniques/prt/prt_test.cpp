@@ -1,0 +1,238 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Run time of transfer: against light on transfer that is known in closed form, and bakes by picture.
+#include "techniques/prt/prt.h"
+
+#include <gloam/bake.h>
+
+#include "frame/test_frame.h"
+#include "scene/environment.h"
+#include "scene/transforms.h"
+
+namespace gloam::prt {
+namespace {
+
+constexpr int kSize = 64;
+constexpr float kPi = 3.14159265f;
+
+Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
+  Settings result(info().options);
+  for (const auto& [name, value] : values) result.set(name, value);
+  return result;
+}
+
+struct Picture {
+  std::vector<float> direct, indirect, normal;
+  std::vector<glm::uvec2> ids;
+  Warnings warnings;
+};
+Picture draw(const Scene& scene, const Settings& settings = prt::settings(), std::size_t chunk_bytes = 0) {
+  const PosedScene posed = pose(scene, 0.0f);
+  frame::TestFrame frame(scene);
+  Prt technique(gpu::testDevice(), chunk_bytes);
+  const frame::FrameImages images = frame.draw(posed, posed.cameras.at(0), {.width = kSize, .height = kSize},
+                                               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                                                 return technique.record(graph, inputs, settings);
+                                               });
+  return {images.direct.image().downloadFloats(), images.indirect.image().downloadFloats(),
+          images.normal.image().downloadFloats(), frame.ids(), frame.warnings};
+}
+
+/// Unshadowed transfer of every vertex, in closed form; the interreflected part is a third, half and all of it.
+void addTransfer(Scene& scene, int order, bool indirect = false) {
+  for (Mesh& mesh : scene.meshes) {
+    auto transfer = std::make_shared<Transfer>();
+    transfer->order = order;
+    for (const glm::vec3& n : mesh.normals) {
+      const sh::Sh cosine = sh::rotateZonal(sh::clampedCosine(order), n);
+      for (const float value : cosine.coefficients()) {
+        transfer->direct.push_back(value);
+        if (indirect) transfer->indirect.insert(transfer->indirect.end(), {value / 3, value / 2, value});
+      }
+    }
+    mesh.transfer = transfer;
+  }
+}
+
+Scene skyScene(const glm::mat4& placed = glm::mat4(1.0f)) {
+  Scene scene = loadScene("builtin:furnace");
+  scene.nodes[0].matrix = placed;
+  scene.environment = loadEnvironment("sky:preetham?elevation=25");
+  return scene;
+}
+
+/// Direct light of all covered pixels against the irradiance at their normals.
+void expectIrradiance(const Picture& picture, const sh::ShRgb& light, float tolerance) {
+  int covered = 0;
+  for (std::size_t i = 0; i < picture.ids.size(); ++i) {
+    if (picture.ids[i].x == 0) continue;
+    ++covered;
+    const glm::vec3 normal(picture.normal[4 * i], picture.normal[4 * i + 1], picture.normal[4 * i + 2]);
+    const glm::vec3 want = sh::irradiance(light, glm::normalize(normal)) / kPi;
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(picture.direct[4 * i + std::size_t(c)], std::max(want[c], 0.0f),
+                  tolerance * std::abs(want[c]) + tolerance);
+  }
+  EXPECT_GT(covered, 300);
+}
+
+TEST(Prt, UnshadowedTransferIsIrradiance) {
+  Scene scene = skyScene();
+  const sh::ShRgb light = projectEnvironment(scene.environment, 6);
+  for (int order = 3; order <= 6; ++order) {
+    addTransfer(scene, order);
+    expectIrradiance(draw(scene), sh::truncated(light, order), 0.004f);
+  }
+  expectIrradiance(draw(scene, settings({{"order", "4"}})), sh::truncated(light, 4), 0.004f);  // of 6 baked
+}
+
+// The light is turned into the object's axes; also where the object is mirrored.
+TEST(Prt, ObjectsTurnUnderTheLight) {
+  for (const glm::vec3& scale : {glm::vec3(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f), glm::vec3(0.7f)}) {
+    glm::mat4 placed = glm::rotate(glm::mat4(1.0f), 2.0f, glm::normalize(glm::vec3(1, 2, -0.5f)));
+    placed = glm::scale(placed, scale);
+    Scene scene = skyScene(placed);
+    addTransfer(scene, 5);
+    expectIrradiance(draw(scene), projectEnvironment(scene.environment, 5), 0.004f);
+  }
+}
+
+TEST(Prt, InstancesOfOneMeshHaveTheirOwnLight) {
+  Scene scene =
+      skyScene(glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(-0.6f, 0, 0)), glm::vec3(0.5f)));
+  Node second = scene.nodes[0];
+  second.matrix =
+      glm::rotate(glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(0.6f, 0, 0)), glm::vec3(0.5f)), 1.0f,
+                  glm::vec3(0.6f, 0, 0.8f));
+  scene.roots.push_back(int(scene.nodes.size()));
+  scene.nodes.push_back(second);
+  addTransfer(scene, 4);
+  const Picture picture = draw(scene);
+  expectIrradiance(picture, projectEnvironment(scene.environment, 4), 0.004f);
+  EXPECT_TRUE(
+      std::any_of(picture.ids.begin(), picture.ids.end(), [](const glm::uvec2& id) { return id.x == 2; }));
+}
+
+TEST(Prt, DirectAndIndirectStayApart) {
+  Scene scene = skyScene();
+  addTransfer(scene, 5, true);
+  const Picture picture = draw(scene);
+  for (std::size_t i = 0; i < picture.ids.size(); ++i) {
+    const float* direct = &picture.direct[4 * i];
+    const float* indirect = &picture.indirect[4 * i];
+    if (picture.ids[i].x == 0) continue;
+    ASSERT_NEAR(indirect[0], direct[0] / 3, 2e-3f * direct[0]);
+    ASSERT_NEAR(indirect[1], direct[1] / 2, 2e-3f * direct[1]);
+    ASSERT_NEAR(indirect[2], direct[2], 2e-3f * direct[2]);
+  }
+  const Picture without = draw(scene, settings({{"indirect", "off"}}));
+  EXPECT_EQ(*std::max_element(without.indirect.begin(), without.indirect.end()), 0.0f);
+}
+
+TEST(Prt, HalvesAreNearlyFloats) {
+  Scene scene = skyScene();
+  addTransfer(scene, 5, true);
+  const Picture floats = draw(scene), halves = draw(scene, settings({{"half_float", "on"}}));
+  for (std::size_t i = 0; i < floats.direct.size(); ++i) {
+    ASSERT_NEAR(halves.direct[i], floats.direct[i], 3e-3f * floats.direct[i] + 1e-4f);
+    ASSERT_NEAR(halves.indirect[i], floats.indirect[i], 3e-3f * floats.indirect[i] + 1e-4f);
+  }
+}
+
+// Transfer that does not fit into one buffer is cut; the picture is the same to the bit.
+TEST(Prt, ChunksGiveTheSamePicture) {
+  Scene scene = skyScene();
+  addTransfer(scene, 5, true);
+  const PosedScene posed = pose(scene, 0.0f);
+  constexpr std::size_t kChunkBytes = 200000;
+  frame::TestFrame frame(scene);
+  frame.graph.begin();
+  frame.gpu_scene.pose(frame.graph, posed);
+  const TransferBuffers transfer(gpu::testDevice(), frame.gpu_scene, {.chunk_bytes = kChunkBytes});
+  EXPECT_GT(transfer.chunks().size(), 3u);
+  std::size_t vertices = 0;
+  for (const TransferChunk& chunk : transfer.chunks()) {
+    EXPECT_LE(std::max(chunk.direct.bytes(), chunk.indirect.bytes()), kChunkBytes);
+    for (const VertexBlock& block : chunk.blocks.download<VertexBlock>()) vertices += block.count;
+  }
+  EXPECT_EQ(vertices, scene.meshes[0].vertexCount());
+
+  const Picture whole = draw(scene), cut = draw(scene, settings(), kChunkBytes);
+  EXPECT_EQ(whole.direct, cut.direct);
+  EXPECT_EQ(whole.indirect, cut.indirect);
+}
+
+TEST(Prt, WhatIsNotBakedIsLitWithoutShadows) {
+  Scene scene = skyScene();
+  addTransfer(scene, 5);
+  Mesh mover = scene.meshes[0];
+  mover.name = "mover";
+  mover.transfer = nullptr;
+  scene.meshes.push_back(mover);
+  scene.nodes[0].matrix = glm::translate(glm::mat4(1.0f), glm::vec3(50, 0, 0));  // out of sight
+  scene.nodes.push_back({.name = "mover", .meshes = {1}});
+  scene.roots.push_back(int(scene.nodes.size()) - 1);
+  const Picture picture = draw(scene);
+  expectIrradiance(picture, projectEnvironment(scene.environment, 5), 0.004f);
+  ASSERT_EQ(picture.warnings.size(), 1u);
+  EXPECT_NE(picture.warnings[0].find("mover"), std::string::npos);
+}
+
+TEST(Prt, SaysWhatItCannotDo) {
+  Scene scene = skyScene();
+  EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("gloam bake"), std::string::npos);
+  addTransfer(scene, 4);
+  auto broken = std::make_shared<Transfer>(*scene.meshes[0].transfer);
+  broken->direct.pop_back();
+  scene.meshes[0].name = "vase";
+  scene.meshes[0].transfer = broken;
+  EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("mesh 'vase': transfer of order 4"), std::string::npos);
+  broken = std::make_shared<Transfer>();
+  broken->order = 9;
+  scene.meshes[0].transfer = broken;
+  EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("order 9"), std::string::npos);
+}
+
+/// Mean of a channel over the covered pixels that are not at an edge.
+float meanInside(const std::vector<float>& rgba, const std::vector<glm::uvec2>& ids,
+                 float* worst_from_one = nullptr) {
+  double sum = 0.0;
+  int count = 0;
+  for (int y = 1; y + 1 < kSize; ++y) {
+    for (int x = 1; x + 1 < kSize; ++x) {
+      const auto at = [&](int dx, int dy) {
+        return ids[std::size_t(y + dy) * kSize + std::size_t(x + dx)].x;
+      };
+      if (at(0, 0) == 0 || at(1, 0) == 0 || at(-1, 0) == 0 || at(0, 1) == 0 || at(0, -1) == 0) continue;
+      const float value = rgba[4 * (std::size_t(y) * kSize + std::size_t(x))];
+      sum += value;
+      ++count;
+      if (worst_from_one) *worst_from_one = std::max(*worst_from_one, std::abs(value - 1.0f));
+    }
+  }
+  return float(sum / count);
+}
+
+TEST(PrtByPicture, ConvexWhiteBodyInTheWhiteFurnaceIsOne) {
+  const Scene baked = bakeTransfer(loadScene("builtin:furnace?detail=0.5"),
+                                   {.kind = TransferKind::kShadowed, .order = 5, .directions = 2048});
+  const Picture picture = draw(baked);
+  float worst = 0.0f;
+  meanInside(picture.direct, picture.ids, &worst);
+  EXPECT_LT(worst, 0.002f);
+}
+
+// An open bowl of albedo 1/2 that covers half its sphere: direct rho (1 - a) = 1/4, with all bounces rho (1 - a) / (1 - rho a)
+// = 1/3; bounce b adds rho (1 - a) (rho a)^b.
+TEST(PrtByPicture, BowlHasItsPartialSums) {
+  const Scene bowl = loadScene("builtin:bowl?coverage=0.5&albedo=0.5&detail=0.5");
+  const Scene baked =
+      bakeTransfer(bowl, {.order = 4, .bounces = 2, .directions = 4096, .bounce_directions = 2048});
+  const Picture picture = draw(baked);
+  EXPECT_NEAR(meanInside(picture.direct, picture.ids), 0.25f, 0.0025f);
+  EXPECT_NEAR(meanInside(picture.indirect, picture.ids), 0.25f * (0.25f + 0.0625f), 0.01f * 0.33f);
+}
+
+}  // namespace
+}  // namespace gloam::prt
