@@ -35,12 +35,12 @@ Mesh column(const Detail& detail) {
     shaft.push_back({0.86f * r * swelling, top + t * (bottom - top)});
   }
   const float neck = shaft.front().radius, foot = shaft.back().radius;
+  shaft.push_back({foot, bottom - 0.03f});  // into the base
   Mesh mesh = shapes::revolve(
-      {shapes::joined({shapes::line({0.0f, kSpring - abacus}, {neck + 0.1f, kSpring - abacus}, 2)}),
-       // The cushion: a quarter turn from the abacus in to the neck.
-       shapes::joined({shapes::arc({neck, kSpring - abacus - 0.08f}, 0.1f, 0.5f * kPi * 0.6f,
-                                   -0.5f * kPi * 0.8f, detail(7))}),
-       shaft, shapes::arc({foot + 0.01f, plinth + 0.05f}, 0.05f, 0.5f * kPi, -0.5f * kPi, detail(7))},
+      {shapes::line({0.0f, kSpring - abacus}, {neck + 0.1f, kSpring - abacus}, 2),
+       // The cushion: round from under the abacus in to the neck.
+       shapes::arc({neck, kSpring - abacus - 0.08f}, 0.1f, 0.3f * kPi, -0.5f * kPi, detail(8)), shaft,
+       shapes::arc({foot + 0.01f, plinth + 0.05f}, 0.05f, 0.5f * kPi, -0.5f * kPi, detail(7))},
       detail(28));
   shapes::append(mesh, shapes::moved(shapes::roundedBox({r + 0.07f, 0.5f * plinth, r + 0.07f}, 0.012f,
                                                         detail.cell(0.08f), 2),
@@ -141,51 +141,68 @@ void addArcade(SceneBuilder& builder, const Detail& detail) {
       stone, {0, kTop + 0.09f, 0});
 }
 
-void addWallsAndFloors(SceneBuilder& builder, const Detail& detail) {
-  const float cell = detail.cell(0.055f), coarse = detail.cell(0.09f), length = 2.0f * kHalfLength;
-  const auto lines = [](float side, float size) {
-    return shapes::steps(std::max(1, int(std::lround(side / size))));
+/// A level from a wall at `back` to a rounded edge at `front` and a riser of one step below it. It runs on under the wall
+/// and into the ground, with a line of vertices just before each.
+Mesh flight(float back, float front, float y, const std::vector<float>& xs, float cell) {
+  const float round = 0.02f, buried = 0.08f;
+  std::vector<glm::vec2> profile;
+  for (const float z : shapes::spaced(front - round - back, cell, buried, 0.0f))
+    profile.emplace_back(back + z, y);
+  for (int i = 1; i < 5; ++i) {
+    const float a = 0.5f * kPi * float(i) / 5.0f;
+    profile.emplace_back(front - round + round * std::sin(a), y - round + round * std::cos(a));
+  }
+  for (const float d : shapes::spaced(kStep - round, cell, 0.0f, buried))
+    profile.emplace_back(front, y - round - d);
+  return shapes::extrude(profile, xs);
+}
+
+void addFloors(SceneBuilder& builder, const Detail& detail, float front) {
+  const float cell = detail.cell(0.055f), coarse = detail.cell(0.09f);
+  const auto across = [](float half, float size, float overlap_end) {
+    std::vector<float> xs = shapes::spaced(2.0f * half, size, 0.0f, overlap_end);
+    for (float& x : xs) x -= half;
+    return xs;
   };
-  const float front = 0.5f * kWall + 0.22f;
-  Mesh floor =
-      shapes::moved(shapes::slab(kHalfLength + 0.05f, 0.5f * (kDepth + front), 2 * kStep, 0.015f, cell),
-                    {0, 0, 0.5f * (front - kDepth)});
-  builder.place("floor", std::move(floor), builder.diffuse("flagstones", {0.6f, 0.55f, 0.46f}));
-  builder.place("step", shapes::slab(kHalfLength + 0.4f, 0.25f, kStep, 0.015f, cell),
-                builder.diffuse("step stone", {0.62f, 0.57f, 0.48f}), {0, -kStep, front + 0.12f});
-  builder.place("court",
-                shapes::patch({-kHalfLength - 1.2f, 0, front - 0.02f}, {length + 2.4f, 0, 0}, {0, 0, 3.2f},
-                              lines(length + 2.4f, coarse), lines(3.2f, coarse)),
-                builder.diffuse("sand", {0.6f, 0.5f, 0.36f}), {0, -2 * kStep, 0});
-  const float height = kTop + 0.02f;
+  builder.place("floor", flight(-kDepth, front, 0.0f, across(kHalfLength - 0.02f, cell, 0.1f), cell),
+                builder.diffuse("flagstones", {0.6f, 0.55f, 0.46f}));
+  builder.place("step", flight(front, front + 0.36f, -kStep, across(kHalfLength + 0.4f, cell, 0.0f), cell),
+                builder.diffuse("step stone", {0.62f, 0.57f, 0.48f}));
+  builder.place(
+      "court",
+      shapes::patch({0, -2 * kStep, front + 0.36f}, {1, 0, 0}, {0, 0, 1},
+                    across(kHalfLength + 1.2f, coarse, 0.0f), shapes::spaced(2.9f, coarse, 0.1f, 0.0f)),
+      builder.diffuse("sand", {0.6f, 0.5f, 0.36f}));
+}
+
+/// The red wall, a blue one at the right end, the ceiling; and what closes the arcade against the sky behind it.
+void addWalls(SceneBuilder& builder, const Detail& detail) {
+  const float cell = detail.cell(0.055f), coarse = detail.cell(0.09f), length = 2.0f * kHalfLength, in = 0.1f;
+  const float inside = length - 0.02f;  // from the open left end to the blue wall
+  const std::vector<float> heights = shapes::spaced(kTop, cell, in, in);
   builder.place("red wall",
-                shapes::patch({-kHalfLength, height, -kDepth}, {length, 0, 0}, {0, -height, 0},
-                              lines(length, cell), lines(height, cell)),
+                shapes::patch({-kHalfLength, kTop, -kDepth}, {1, 0, 0}, {0, -1, 0},
+                              shapes::spaced(inside, cell, 0.0f, in), heights),
                 builder.diffuse("red plaster", {0.62f, 0.13f, 0.07f}));
+  const float deep = kDepth - 0.5f * kWall;
+  builder.place("blue wall",
+                shapes::patch({kHalfLength - 0.02f, kTop, -kDepth}, {0, 0, 1}, {0, -1, 0},
+                              shapes::spaced(deep, cell, in, in), heights),
+                builder.diffuse("blue plaster", {0.12f, 0.25f, 0.42f}));
   builder.place("ceiling",
-                shapes::patch({-kHalfLength, kTop, -0.5f * kWall}, {length, 0, 0},
-                              {0, 0, 0.5f * kWall - kDepth}, lines(length, coarse), lines(kDepth, coarse)),
+                shapes::patch({-kHalfLength, kTop, -0.5f * kWall}, {1, 0, 0}, {0, 0, -1},
+                              shapes::spaced(inside, coarse, 0.0f, in), shapes::spaced(deep, coarse, in, in)),
                 builder.diffuse("ceiling", {0.75f, 0.72f, 0.65f}));
-  // The roof and the outside of the walls close the arcade against the sky behind it.
   const int lime = builder.diffuse("lime wash", {0.7f, 0.68f, 0.62f});
-  const float roof = kTop + 0.18f;
-  builder.place("roof",
-                shapes::patch({-kHalfLength, roof, -kDepth - 0.1f}, {length, 0, 0}, {0, 0, kDepth + 0.1f},
-                              lines(length, 0.4f), lines(kDepth, 0.4f)),
-                lime);
-  const int blue = builder.diffuse("blue plaster", {0.12f, 0.25f, 0.42f});
-  builder.place("end wall",
-                shapes::patch({kHalfLength - 0.02f, height, -kDepth}, {0, 0, kDepth - 0.5f * kWall},
-                              {0, -height, 0}, lines(kDepth, cell), lines(height, cell)),
-                blue);
-  builder.place("end wall outside",
-                shapes::patch({kHalfLength, roof, 0.0f}, {0, 0, -kDepth - 0.1f}, {0, -roof, 0},
-                              lines(kDepth, 0.3f), lines(roof, 0.3f)),
-                lime);
-  builder.place("back outside",
-                shapes::patch({kHalfLength, roof, -kDepth - 0.1f}, {-length, 0, 0}, {0, -roof - 2 * kStep, 0},
-                              lines(length, 0.4f), lines(roof, 0.4f)),
-                lime);
+  const float roof = kTop + 0.18f, behind = -kDepth - 0.12f, down = roof + 2.0f * kStep;
+  Mesh outside = shapes::patch({-kHalfLength, roof, behind}, {1, 0, 0}, {0, 0, 1},
+                               shapes::spaced(length + 0.1f, 0.4f), shapes::spaced(-behind, 0.4f));
+  shapes::append(outside,
+                 shapes::patch({kHalfLength + 0.1f, roof, 0.5f * kWall}, {0, 0, -1}, {0, -1, 0},
+                               shapes::spaced(0.5f * kWall - behind, 0.3f), shapes::spaced(down, 0.3f)));
+  shapes::append(outside, shapes::patch({kHalfLength + 0.1f, roof, behind}, {-1, 0, 0}, {0, -1, 0},
+                                        shapes::spaced(length + 0.1f, 0.4f), shapes::spaced(down, 0.4f)));
+  builder.place("outside", std::move(outside), lime);
 }
 
 }  // namespace
@@ -193,7 +210,8 @@ void addWallsAndFloors(SceneBuilder& builder, const Detail& detail) {
 Scene makeColumns(const Detail& detail, NamedValues&) {
   SceneBuilder builder("columns");
   addArcade(builder, detail);
-  addWallsAndFloors(builder, detail);
+  addFloors(builder, detail, 0.5f * kWall + 0.22f);
+  addWalls(builder, detail);
   const int clay = builder.diffuse("clay", {0.55f, 0.24f, 0.12f});
   builder.place("vase", vase(detail), clay, {-0.95f, 0, -0.95f});
   builder.place("ball", shapes::icosphere(0.3f, detail(16)), builder.diffuse("marble", {0.8f, 0.79f, 0.76f}),

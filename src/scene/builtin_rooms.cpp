@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/builtin_shapes.h"
+#include "scene/mesh_repair.h"
 #include "scene/scene_builder.h"
 
 namespace gloam {
@@ -14,33 +15,79 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-// Grid lines stop this short of a corner: a vertex exactly in the corner would lie in the plane of the next wall, half of
-// its rays beyond it.
-constexpr float kCornerGap_m = 0.004f;
-
-/// Parameters 0 to 1 over a side of that length, even but for lines close to both ends.
-std::vector<float> insetLines(float length, float cell) {
-  const int n = std::max(2, int(std::ceil(length / cell)));
-  std::vector<float> lines = shapes::steps(n);
-  const float gap = kCornerGap_m / length;
-  lines.insert(lines.begin() + 1, gap);
-  lines.insert(lines.end() - 1, 1.0f - gap);
-  return lines;
-}
+/// Where a wall runs on into its neighbours.
+struct Overlap {
+  bool u_start = false, u_end = false, v_start = false, v_end = false;
+};
 
 /// A wall: its inner face spans edge_u and edge_v (which runs down) from `origin`; `thickness` behind it stands the rest of a
-/// closed slab, coarse, since nobody sees it.
+/// closed slab, coarse, since nobody sees it. UVs are metres.
 Mesh wall(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& edge_v, float thickness,
-          float cell) {
-  Mesh mesh = shapes::patch(origin, edge_u, edge_v, insetLines(glm::length(edge_u), cell),
-                            insetLines(glm::length(edge_v), cell));
-  const glm::vec3 back = glm::normalize(glm::cross(edge_u, edge_v)) * thickness;
+          float cell, const Overlap& over) {
+  const glm::vec3 u = glm::normalize(edge_u), v = glm::normalize(edge_v);
+  const std::vector<float> us = shapes::spaced(glm::length(edge_u), cell, over.u_start ? thickness : 0.0f,
+                                               over.u_end ? thickness : 0.0f);
+  const std::vector<float> vs = shapes::spaced(glm::length(edge_v), cell, over.v_start ? thickness : 0.0f,
+                                               over.v_end ? thickness : 0.0f);
+  Mesh mesh = shapes::patch(origin, u, v, us, vs);
   const std::vector<float> whole = {0.0f, 1.0f};
-  shapes::append(mesh, shapes::patch(origin + edge_u + back, -edge_u, edge_v, whole, whole));
-  shapes::append(mesh, shapes::patch(origin + back, edge_u, -back, whole, whole));
-  shapes::append(mesh, shapes::patch(origin + edge_v, edge_u, back, whole, whole));
-  shapes::append(mesh, shapes::patch(origin + back, -back, edge_v, whole, whole));
-  shapes::append(mesh, shapes::patch(origin + edge_u, back, edge_v, whole, whole));
+  const glm::vec3 corner = origin + us.front() * u + vs.front() * v, back = glm::cross(u, v) * thickness;
+  const glm::vec3 along_u = (us.back() - us.front()) * u, along_v = (vs.back() - vs.front()) * v;
+  shapes::append(mesh, shapes::patch(corner + along_u + back, -along_u, along_v, whole, whole));
+  shapes::append(mesh, shapes::patch(corner + back, along_u, -back, whole, whole));
+  shapes::append(mesh, shapes::patch(corner + along_v, along_u, back, whole, whole));
+  shapes::append(mesh, shapes::patch(corner + back, -back, along_v, whole, whole));
+  shapes::append(mesh, shapes::patch(corner + along_u, back, along_v, whole, whole));
+  return mesh;
+}
+
+/// A ceiling of 2 by 2 metres at that height, a square hole of half side `hole` in its middle, open to the front.
+Mesh ceilingWithHole(float height, float hole, float thickness, float cell) {
+  const auto lines = [&](bool overlap_end) {
+    std::vector<float> all = shapes::spaced(1.0f - hole, cell, thickness, 0.0f);
+    const int n = std::max(2, int(std::ceil(2.0f * hole / cell)));
+    for (int i = 1; i <= n; ++i) all.push_back(1.0f - hole + 2.0f * hole * float(i) / float(n));
+    for (const float x : shapes::spaced(1.0f - hole, cell, 0.0f, overlap_end ? thickness : 0.0f)) {
+      if (x > 0.0f) all.push_back(1.0f + hole + x);
+    }
+    return all;
+  };
+  // Looking up: u to the right, v towards the back wall, first the open front.
+  std::vector<float> depth = lines(true);
+  for (float& z : depth) z = 2.0f - z;
+  std::reverse(depth.begin(), depth.end());
+  Mesh mesh = shapes::patch({-1, height, 1}, {1, 0, 0}, {0, 0, -1}, lines(true), depth);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const glm::vec3 middle = (mesh.positions[mesh.indices[t]] + mesh.positions[mesh.indices[t + 1]] +
+                              mesh.positions[mesh.indices[t + 2]]) /
+                             3.0f;
+    if (std::abs(middle.x) < hole && std::abs(middle.z) < hole) continue;
+    kept.insert(kept.end(), mesh.indices.begin() + std::ptrdiff_t(t),
+                mesh.indices.begin() + std::ptrdiff_t(t + 3));
+  }
+  mesh.indices = std::move(kept);
+  removeUnusedVertices(mesh);
+  // The sides of the hole, and the roof round it.
+  const std::vector<float> along = shapes::steps(std::max(2, int(std::ceil(2.0f * hole / cell)))),
+                           up = shapes::steps(3);
+  const glm::vec3 top(0, height + thickness, 0), down(0, -thickness, 0);
+  const float side = 2.0f * hole;
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-hole, 0, hole), {0, 0, -side}, down, along, up));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-hole, 0, -hole), {side, 0, 0}, down, along, up));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(hole, 0, -hole), {0, 0, side}, down, along, up));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(hole, 0, hole), {-side, 0, 0}, down, along, up));
+  const std::vector<float> whole = {0.0f, 1.0f};
+  const float outer = 1.0f + thickness;
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, -outer), {2 * outer, 0, 0},
+                                     {0, 0, outer - hole}, whole, whole));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, hole), {2 * outer, 0, 0}, {0, 0, 1 - hole},
+                                     whole, whole));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, -hole), {outer - hole, 0, 0}, {0, 0, side},
+                                     whole, whole));
+  shapes::append(
+      mesh, shapes::patch(top + glm::vec3(hole, 0, -hole), {outer - hole, 0, 0}, {0, 0, side}, whole, whole));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, 1), {2 * outer, 0, 0}, down, whole, whole));
   return mesh;
 }
 
@@ -58,17 +105,14 @@ Scene makeCornell(const Detail& detail, NamedValues&) {
   const int white = builder.diffuse("white", {0.74f, 0.72f, 0.68f});
   const int red = builder.diffuse("red", {0.63f, 0.065f, 0.05f}),
             green = builder.diffuse("green", {0.14f, 0.45f, 0.09f});
-  builder.place("floor", wall({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, t, cell), white);
-  builder.place("back wall", wall({-1, 2, -1}, {2, 0, 0}, {0, -2, 0}, t, cell), white);
-  builder.place("left wall", wall({-1, 2, 1}, {0, 0, -2}, {0, -2, 0}, t, cell), red);
-  builder.place("right wall", wall({1, 2, -1}, {0, 0, 2}, {0, -2, 0}, t, cell), green);
-  // The ceiling is four slabs round the skylight.
-  const float h = 0.3f;
-  Mesh ceiling = wall({-1, 2, 1}, {2, 0, 0}, {0, 0, h - 1}, t, cell);
-  shapes::append(ceiling, wall({-1, 2, -h}, {2, 0, 0}, {0, 0, h - 1}, t, cell));
-  shapes::append(ceiling, wall({-1, 2, h}, {1 - h, 0, 0}, {0, 0, -2 * h}, t, cell));
-  shapes::append(ceiling, wall({h, 2, h}, {1 - h, 0, 0}, {0, 0, -2 * h}, t, cell));
-  builder.place("ceiling", std::move(ceiling), white);
+  builder.place("floor", wall({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, t, cell, {true, true, true, false}), white);
+  builder.place("back wall", wall({-1, 2, -1}, {2, 0, 0}, {0, -2, 0}, t, cell, {true, true, true, true}),
+                white);
+  builder.place("left wall", wall({-1, 2, 1}, {0, 0, -2}, {0, -2, 0}, t, cell, {false, true, true, true}),
+                red);
+  builder.place("right wall", wall({1, 2, -1}, {0, 0, 2}, {0, -2, 0}, t, cell, {true, false, true, true}),
+                green);
+  builder.place("ceiling", ceilingWithHole(2.0f, 0.3f, t, cell), white);
   builder.place("tall box", standing({0.3f, 0.6f, 0.3f}, 18, cell), white, {-0.36f, 0, -0.32f});
   builder.place("short box", standing({0.29f, 0.29f, 0.29f}, -17, cell), white, {0.36f, 0, 0.3f});
   Light lamp;
@@ -87,11 +131,13 @@ Scene makeCornell(const Detail& detail, NamedValues&) {
 Scene makeLamp(const Detail& detail, NamedValues&) {
   SceneBuilder builder("lamp");
   const float cell = detail.cell(0.05f), t = 0.12f;
-  builder.place("floor", wall({-2, 0, -2}, {4, 0, 0}, {0, 0, 4}, t, cell),
+  builder.place("floor", wall({-2, 0, -2}, {4, 0, 0}, {0, 0, 4}, t, cell, {true, false, true, false}),
                 builder.diffuse("boards", {0.42f, 0.28f, 0.17f}));
   const int plaster = builder.diffuse("plaster", {0.7f, 0.68f, 0.64f});
-  builder.place("back wall", wall({-2, 2.6f, -2}, {4, 0, 0}, {0, -2.6f, 0}, t, cell), plaster);
-  builder.place("left wall", wall({-2, 2.6f, 2}, {0, 0, -4}, {0, -2.6f, 0}, t, cell),
+  builder.place("back wall",
+                wall({-2, 2.6f, -2}, {4, 0, 0}, {0, -2.6f, 0}, t, cell, {true, false, false, true}), plaster);
+  builder.place("left wall",
+                wall({-2, 2.6f, 2}, {0, 0, -4}, {0, -2.6f, 0}, t, cell, {false, true, false, true}),
                 builder.diffuse("blue", {0.16f, 0.27f, 0.42f}));
   const int wood = builder.diffuse("wood", {0.55f, 0.36f, 0.2f});
   builder.place("chest", standing({0.5f, 0.28f, 0.3f}, 12, cell), wood, {0.55f, 0, -1.25f});

@@ -124,6 +124,18 @@ std::vector<float> steps(int n) {
   return values;
 }
 
+std::vector<float> spaced(float length, float cell, float overlap_start, float overlap_end) {
+  constexpr float kCornerGap_m = 0.003f;
+  std::vector<float> values;
+  const float first = overlap_start > 0.0f ? kCornerGap_m : 0.0f;
+  const float last = length - (overlap_end > 0.0f ? kCornerGap_m : 0.0f);
+  const int n = cells(last - first, cell);
+  if (overlap_start > 0.0f) values.push_back(-overlap_start);
+  for (int i = 0; i <= n; ++i) values.push_back(first + (last - first) * float(i) / float(n));
+  if (overlap_end > 0.0f) values.push_back(length + overlap_end);
+  return values;
+}
+
 Mesh patch(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& edge_v,
            const std::vector<float>& us, const std::vector<float>& vs) {
   Mesh mesh = emptyMesh();
@@ -137,6 +149,21 @@ Mesh patch(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& ed
 
 Mesh ground(float size_x, float size_z, int nx, int nz) {
   return patch({-0.5f * size_x, 0.0f, -0.5f * size_z}, {size_x, 0, 0}, {0, 0, size_z}, steps(nx), steps(nz));
+}
+
+Mesh extrude(const std::vector<glm::vec2>& profile, const std::vector<float>& xs) {
+  Mesh mesh = emptyMesh();
+  float length = 0.0f;
+  const std::size_t last = profile.size() - 1;
+  for (std::size_t j = 0; j <= last; ++j) {
+    const glm::vec2 along = profile[std::min(j + 1, last)] - profile[j > 0 ? j - 1 : 0];
+    if (j > 0) length += glm::length(profile[j] - profile[j - 1]);
+    for (const float x : xs) {
+      addVertex(mesh, {x, profile[j].y, profile[j].x}, {0.0f, along.x, -along.y}, {1, 0, 0}, {x, length});
+    }
+  }
+  addGridTriangles(mesh, 0, int(xs.size()) - 1, int(last));
+  return mesh;
 }
 
 Mesh box(const glm::vec3& low, const glm::vec3& high, float cell) {

@@ -31,6 +31,10 @@ Mesh patch(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& ed
            const std::vector<float>& us, const std::vector<float>& vs);
 /// Parameters 0 to 1 in n equal steps.
 std::vector<float> steps(int n);
+/// Distances from 0 to length in steps of about `cell`. Where the surface overlaps its neighbour at a corner it runs on by
+/// that much, so that no crack shows, and a line of vertices stands 3 mm short of the corner, since those beyond it are
+/// buried and dark.
+std::vector<float> spaced(float length, float cell, float overlap_start = 0.0f, float overlap_end = 0.0f);
 /// Ground that faces +Y, size_x by size_z about the origin, nx by nz cells.
 Mesh ground(float size_x, float size_z, int nx, int nz);
 
@@ -41,6 +45,10 @@ Mesh box(const glm::vec3& low, const glm::vec3& high, float cell);
 Mesh roundedBox(const glm::vec3& half, float radius, float cell, int bevel = 3);
 /// A plinth: the top (y = 0) and sides of a rounded box, without its underside.
 Mesh slab(float half_x, float half_z, float thickness, float radius, float cell);
+
+/// A moulding along +X: at each of the given places the same profile of (z, y), one smooth run. Where it runs towards +Z it
+/// faces up. UVs are x and the length of the profile, in metres.
+Mesh extrude(const std::vector<glm::vec2>& profile, const std::vector<float>& xs);
 
 /// A point of a profile: distance from the axis and height.
 struct ProfilePoint {

@@ -34,7 +34,7 @@ void addTurn(SceneBuilder& builder, int node, float seconds, const glm::vec3& ax
 Scene makeSpheres(const Detail& detail, NamedValues&) {
   SceneBuilder builder("spheres");
   builder.place("plinth", shapes::slab(2.35f, 2.0f, 0.25f, 0.06f, detail.cell(0.045f)),
-                builder.diffuse("plinth", {0.44f, 0.43f, 0.41f}));
+                builder.diffuse("plinth", {0.2f, 0.205f, 0.22f}));
   const std::array<glm::vec3, 5> hues = {{{0.68f, 0.13f, 0.09f},
                                           {0.74f, 0.42f, 0.08f},
                                           {0.22f, 0.45f, 0.16f},
@@ -58,7 +58,7 @@ Scene makeSpheres(const Detail& detail, NamedValues&) {
     builder.place("metal " + number, shapes::icosphere(radius, frequency),
                   builder.metal("metal " + number, metals[i], roughness[i]), {x, radius, -1.25f});
   }
-  builder.camera({0.9f, 5.4f, 7.6f}, {0, -0.05f, 0.05f}, 30.5f);
+  builder.camera({0.7f, 5.4f, 7.6f}, {0, -0.05f, 0.0f}, 32);
   builder.sky("mild");
   return builder.finish();
 }
@@ -78,7 +78,7 @@ Scene makeShadow(const Detail& detail, NamedValues&) {
   builder.place("ball", shapes::icosphere(0.18f, detail(12)), builder.diffuse("chalk", glm::vec3(0.8f)),
                 middle);
   builder.camera({1.6f, 2.3f, 4.3f}, {0, 0.55f, 0}, 32);
-  builder.sky("studio");
+  builder.sky("studio?rotation=-65");
   return builder.finish();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gltf_transfer.h"
 
+#include <gloam/sh.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -160,6 +161,24 @@ TEST(Transfer, ChecksumIsThatOfZlib) {
   const glm::vec3 p(1, 2, 3);
   const std::uint32_t triangle[3] = {0, 1, 2};
   EXPECT_EQ(geometryChecksum({&p, 1}, triangle), "bbc4f84e");
+}
+
+TEST(Transfer, TheExampleInTheDocumentIsRight) {
+  // docs/formats/GLOAM_precomputed_transfer.md, "An example in numbers".
+  const glm::vec3 positions[3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+  const std::uint32_t indices[3] = {0, 1, 2};
+  EXPECT_EQ(geometryChecksum(positions, indices), "13584cff");
+  const sh::Sh y = sh::evaluate(3, {0, 1, 0});
+  const float direct[9] = {0.886227f, 1.023327f, 0, 0, 0, 0, -0.247708f, 0, -0.429043f};
+  const std::uint16_t halves[9] = {0x3B17, 0x3C18, 0, 0, 0, 0, 0xB3ED, 0, 0xB6DD};
+  float irradiance = 0.0f;
+  for (int i = 0; i < 9; ++i) {
+    const int band = i == 0 ? 0 : i < 4 ? 1 : 2;
+    EXPECT_NEAR(sh::clampedCosineFactor(band) * y[i], direct[i], 1e-6f);
+    EXPECT_EQ(halfFromFloat(direct[i]) & 0x7FFF, halves[i] & 0x7FFF);
+    irradiance += direct[i] * y[i];
+  }
+  EXPECT_NEAR(irradiance, 1.0625f, 1e-5f);
 }
 
 TEST(Transfer, ErrorsNameTheField) {

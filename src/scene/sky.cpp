@@ -127,8 +127,7 @@ Environment mild(NamedValues& values) {
   const glm::vec3 key = directionAt(float(values.take("elevation", 48, -90, 90)),
                                     float(values.take("azimuth", -40, -360, 360)));
   return painted([key](const glm::vec3& d) {
-    const glm::vec3 base =
-        gradientAt(d.y, {0.30f, 0.39f, 0.56f}, {0.46f, 0.48f, 0.5f}, {0.2f, 0.17f, 0.14f});
+    const glm::vec3 base = gradientAt(d.y, {0.30f, 0.39f, 0.56f}, {0.46f, 0.48f, 0.5f}, {0.2f, 0.17f, 0.14f});
     return base + glm::vec3(3.2f, 2.85f, 2.35f) * std::exp(9.0f * (glm::dot(d, key) - 1.0f));
   });
 }
@@ -183,9 +182,9 @@ Environment sunset(NamedValues& values) {
 // A dark studio: a large key, a cool fill and a rim light behind.
 Environment studio(NamedValues&) {
   Environment sky =
-      painted([](const glm::vec3& d) { return glm::vec3(0.05f + 0.05f * std::max(0.0f, d.y)); });
-  addDisc(sky, directionAt(48, -45), 24 * kDegree, {1.9f, 1.8f, 1.65f});
-  addDisc(sky, directionAt(20, 75), 30 * kDegree, {0.32f, 0.38f, 0.5f});
+      painted([](const glm::vec3& d) { return glm::vec3(0.035f + 0.04f * std::max(0.0f, d.y)); });
+  addDisc(sky, directionAt(48, -45), 24 * kDegree, {2.1f, 2.0f, 1.83f});
+  addDisc(sky, directionAt(20, 75), 30 * kDegree, {0.22f, 0.27f, 0.36f});
   addDisc(sky, directionAt(35, 165), 12 * kDegree, {0.7f, 0.72f, 0.8f});
   return sky;
 }
