@@ -52,7 +52,9 @@ void Console::release() {
 }
 
 void Console::remarks(const std::string& place, const Warnings& warnings) {
-  for (const std::string& warning : warnings) remark(fmt::format("{}: {}", place, warning));
+  for (const std::string& warning : warnings) {
+    remark(warning.starts_with(place) ? warning : fmt::format("{}: {}", place, warning));
+  }
 }
 
 void Console::print(const std::string& line) {

@@ -48,34 +48,52 @@ Json describe(const std::string& name, Console& console) {
   return describeScene(name, console);
 }
 
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+bool isEmpty(const Json& value) {
+  return value.is_null() || value.empty() || value == Json("");
+}
+
+/// "name a, size 4x4" for an object, "1, 2, 3" for a list, the value itself for anything else.
+std::string inOneLine(const Json& value) {
+  if (!value.is_structured()) return plain(value);
+  std::string line;
+  for (const auto& [name, inner] : value.items()) {
+    if (isEmpty(inner)) continue;
+    const std::string text = inner.is_structured() ? fmt::format("({})", inOneLine(inner)) : plain(inner);
+    line += (line.empty() ? "" : ", ") + (value.is_object() ? name + " " + text : text);
+  }
+  return line;
+}
+
+bool holdsLists(const Json& object) {
+  return std::ranges::any_of(object,
+                             [](const Json& value) { return value.is_array() && value.front().is_object(); });
+}
+
 // {"cameras": [{"name": "a"}]} becomes indented lines; what is empty is left out.
 void printTree(const Json& json, const std::string& indent, Console& console) {
   for (const auto& [key, value] : json.items()) {
-    if (value.empty() || value.is_null()) continue;
-    if (!value.is_structured()) {
-      console.print(
-          fmt::format("{}{}: {}", indent, key, value.is_string() ? value.get<std::string>() : value.dump()));
-    } else if (value.is_array() && !value.front().is_structured()) {
-      std::string line;
-      for (const Json& element : value) {
-        line +=
-            (line.empty() ? "" : ", ") + (element.is_string() ? element.get<std::string>() : element.dump());
-      }
-      console.print(fmt::format("{}{}: {}", indent, key, line));
-    } else if (value.is_array()) {
-      console.print(fmt::format("{}{}: {}", indent, key, value.size()));
-      for (const Json& element : value) {
-        std::string line;
-        for (const auto& [name, inner] : element.items()) {
-          if (inner.empty() || inner == Json("")) continue;
-          line += fmt::format("{}{} {}", line.empty() ? "" : ", ", name,
-                              inner.is_string() ? inner.get<std::string>() : inner.dump());
-        }
-        console.print(fmt::format("{}  {}", indent, line));
-      }
-    } else {
-      console.print(fmt::format("{}{}:", indent, key));
+    if (isEmpty(value)) continue;
+    const bool list = value.is_array() && value.front().is_object();
+    if (!list && !value.is_object()) {
+      console.print(fmt::format("{}{}: {}", indent, key, inOneLine(value)));
+      continue;
+    }
+    console.print(list ? fmt::format("{}{}: {}", indent, key, value.size())
+                       : fmt::format("{}{}:", indent, key));
+    if (!list) {
       printTree(value, indent + "  ", console);
+      continue;
+    }
+    for (const Json& element : value) {
+      if (holdsLists(element)) {
+        printTree(element, indent + "  ", console);
+      } else {
+        console.print(fmt::format("{}  {}", indent, inOneLine(element)));
+      }
     }
   }
 }

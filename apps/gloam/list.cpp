@@ -94,7 +94,11 @@ Json optionJson(const Option& option) {
   } else {
     json["range"] = nullptr;
   }
-  std::visit([&](const auto& held) { json["default"] = held; }, option.default_value);
+  if (const float* number = std::get_if<float>(&option.default_value)) {
+    json["default"] = shortest(*number);
+  } else {
+    std::visit([&](const auto& held) { json["default"] = held; }, option.default_value);
+  }
   json["help"] = option.help;
   return json;
 }

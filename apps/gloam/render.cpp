@@ -90,13 +90,12 @@ void printResult(const RenderChoice& choice, const Stage& stage, const Renderer&
                                durationText(timings.medianFrameMs() / 1000.0)));
     return;
   }
-  Json settings = Json::object(), outputs = Json::array();
-  for (const auto& [name, value] : stage.options.settings.list()) settings[name] = value;
+  Json outputs = Json::array();
   for (const auto& file : files) outputs.push_back(file.string());
   console.print(jsonText({{"scene", choice.scene.name},
                           {"environment", stage.environment.name},
                           {"technique", stage.technique->name},
-                          {"settings", settings},
+                          {"settings", settingsJson(*stage.technique, stage.options.settings)},
                           {"device", renderer.device().name},
                           {"size", fmt::format("{}x{}", choice.view.size.x, choice.view.size.y)},
                           {"exposure_stops", display.exposure_stops},

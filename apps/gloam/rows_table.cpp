@@ -12,23 +12,23 @@ constexpr Row kSphericalHarmonics[] = {
     {"SH-1",
      "Real, orthonormal basis functions of 1 to 6 bands as polynomials in x, y, z; SIMD, scalar and shader "
      "forms of one table of constants",
-     kYes, "", "gloam bench sh", "math: basis"},
+     kYes, "", "gloam bench sh", "math: ShBasis, Glsl, DeviceTwins"},
     {"SH-2",
      "Projection of environment maps and cube maps (texel solid angles sum to 4 pi), of functions, and of "
      "analytic lights: direction, disc, constant, gradient and daylight sky",
-     kYes, "", "gloam render builtin:spheres --env sky:mild", "math: projection"},
+     kYes, "", "gloam render builtin:spheres --env sky:mild", "math: ShProjection; scene: Sky, Environment"},
     {"SH-3",
      "Rotation by any 3x3 rotation, band by band, equal to projecting the rotated function, exact near the "
      "identity too",
-     kYes, "", "gloam bench sh", "math: rotation"},
+     kYes, "", "gloam bench sh", "math: ShRotation"},
     {"SH-4", "Turning a zonal function to another axis by one product a coefficient", kYes, "",
-     "gloam bench sh", "math: zonal"},
+     "gloam bench sh", "math: ShZonal"},
     {"SH-5", "Convolution with a zonal kernel; the clamped cosine turns light into irradiance", kYes, "",
-     "gloam render builtin:furnace --technique irradiance", "math: convolution"},
+     "gloam render builtin:furnace --technique irradiance", "math: ShConvolution; irradiance: Irradiance"},
     {"SH-6",
      "Product of two functions of any orders up to 6 by exact, sparse triple-product coefficients; square "
      "and product matrix",
-     kYes, "", "gloam bench sh", "math: product"},
+     kYes, "", "gloam bench sh", "math: ShProduct"},
     {"SH-7",
      "Logarithm of a function through its product matrix, with clamped eigenvalues; tabulated for zonal "
      "visibility"},
@@ -36,14 +36,15 @@ constexpr Row kSphericalHarmonics[] = {
      "Exponential of a function: series, optimal linear, and the hybrid of scaling and squaring, each with "
      "its error"},
     {"SH-9", "Windows against ringing: Hann, Lanczos, and the least that keeps a function non-negative", kYes,
-     "", "gloam render builtin:spheres --env sky:noon", "math: windowing"},
+     "", "gloam render builtin:spheres --env sky:noon",
+     "math: ShWindow; irradiance: AutoWindowKeepsLightNonNegative"},
 };
 
 constexpr Row kPrecomputedTransfer[] = {
     {"PRT-1",
      "Diffuse transfer vectors a vertex: unshadowed, shadowed, and interreflected over any number of "
      "bounces; shadowed and bounced parts stored apart",
-     kYes, "", "gloam bake builtin:cornell -o cornell.glb", "prt: bowl and furnace"},
+     kYes, "", "gloam bake builtin:cornell -o cornell.glb", "prt_bake: PrtBake; prt: Prt"},
     {"PRT-2",
      "Glossy transfer matrices, square or 9 to 25, with a Phong-like kernel whose exponent is chosen at run "
      "time"},
@@ -51,11 +52,11 @@ constexpr Row kPrecomputedTransfer[] = {
      "The simulator: quasi-random directions, culling below the horizon, later passes only along blocked "
      "directions, all cores, same bits for any number of threads, progress, resume",
      kPartly, "caustics from specular reflectors; per-texel transfer",
-     "gloam bake builtin:cornell --directions 10000 -o cornell.glb", "prt: bake; cli: resume"},
+     "gloam bake builtin:cornell --directions 10000 -o cornell.glb", "prt_bake: PrtBake; cli_bake: Bake"},
     {"PRT-4",
      "Relighting: light turned into the object's frame, one dot product a vertex; light and object turn "
      "every frame with nothing baked again",
-     kYes, "", "gloam render cornell.glb --technique prt --orbit 24 -o turn.mp4", "prt: relight"},
+     kYes, "", "gloam render cornell.glb --technique prt --orbit 24 -o turn.mp4", "prt: Prt"},
     {"PRT-5",
      "Local light: radiance that arrives at sampled points near the object each frame, blended over the "
      "vertices"},
@@ -68,7 +69,7 @@ constexpr Row kPrecomputedTransfer[] = {
      "The baked file is a valid .glb; transfer rides in an extension whose data are ordinary accessors, as "
      "floats or halfs",
      kPartly, "clustered PCA", "gloam bake builtin:cornell --half -o cornell.glb",
-     "scene: transfer extension"},
+     "scene: Transfer, WriteGlb"},
 };
 
 constexpr Row kSphereSets[] = {

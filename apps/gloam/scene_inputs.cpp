@@ -48,6 +48,19 @@ PosedCamera cameraAt(const glm::vec3& eye, const glm::vec3& target) {
   return posed;
 }
 
+/// A floor is wider than what stands on it: the camera is placed before, and stays with the scene when it is baked.
+void addFramingCamera(Scene& scene) {
+  const PosedCamera framing = framingCamera(pose(scene, 0.0f), 1.0f);
+  Node node;
+  node.name = "framing camera";
+  node.matrix = framing.world_from_view;
+  node.camera = int(scene.cameras.size());
+  scene.cameras.push_back(framing.camera);
+  scene.cameras.back().name = node.name;
+  scene.roots.push_back(int(scene.nodes.size()));
+  scene.nodes.push_back(std::move(node));
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& app, SceneChoice& choice) {
@@ -118,6 +131,7 @@ Scene loadSceneToDraw(const SceneChoice& choice, Console& console) {
     if (baked)
       throw Error("--ground",
                   fmt::format("{} is baked without it; give --ground to gloam bake", choice.name));
+    if (scene.cameras.empty()) addFramingCamera(scene);
     addGround(scene);
   }
   console.remarks(choice.name, scene.warnings);

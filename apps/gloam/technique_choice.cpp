@@ -66,6 +66,22 @@ Settings settingsFor(const TechniqueInfo& info, const TechniqueChoice& choice) {
   return settings;
 }
 
+Json settingsJson(const TechniqueInfo& info, const Settings& settings) {
+  Json json = Json::object();
+  for (const Option& option : info.options) {
+    if (std::holds_alternative<bool>(option.default_value)) {
+      json[option.name] = settings.flag(option.name);
+    } else if (std::holds_alternative<int>(option.default_value)) {
+      json[option.name] = settings.integer(option.name);
+    } else if (std::holds_alternative<float>(option.default_value)) {
+      json[option.name] = shortest(settings.number(option.name));
+    } else {
+      json[option.name] = settings.choice(option.name);
+    }
+  }
+  return json;
+}
+
 bool carriesTransfer(const Scene& scene) {
   return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.transfer != nullptr; });
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "arguments.h"
+#include "json.h"
 
 namespace gloam::cli {
 
@@ -27,6 +28,9 @@ const TechniqueInfo& chooseTechnique(const TechniqueChoice& choice, const Scene&
 
 /// The options of that technique with what was given for it.
 Settings settingsFor(const TechniqueInfo& info, const TechniqueChoice& choice);
+
+/// {"order": 5, "window": "auto"}: every option with its present value, in its own type.
+Json settingsJson(const TechniqueInfo& info, const Settings& settings);
 
 bool carriesTransfer(const Scene& scene);
 

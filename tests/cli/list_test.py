@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """gloam list, info, scene: what there is, what a file holds."""
 import os
+import pathlib
+import re
 import subprocess
 import unittest
 
@@ -42,7 +44,7 @@ class List(CliTest):
         self.assertEqual(set(self.succeed_json("list", "--rows", "--scenes")), {"rows", "scenes"})
         self.refuse("list", "--markdown", says="--rows")
 
-    def test_commands_and_tests_of_rows_exist(self):
+    def test_commands_of_rows_exist(self):
         verbs_known = {"render", "bake", "bench", "info", "list", "scene"}
         for row in self.succeed_json("list", "--rows")["rows"]:
             words = row["command"].split()
@@ -51,6 +53,17 @@ class List(CliTest):
             for word in words:
                 if word.startswith("--"):
                     self.assertIn(word, help_text, row)
+
+    def test_tests_that_rows_name_are_registered(self):
+        build = pathlib.Path(GLOAM).resolve().parents[1]
+        registered = set()
+        for file in build.rglob("CTestTestfile.cmake"):
+            registered.update(re.findall(r'add_test\(\[=*\[?"?(\w+)', file.read_text(encoding="utf-8")))
+        if not registered:
+            self.skipTest("gloam is not in its build folder")
+        for row in self.succeed_json("list", "--rows")["rows"]:
+            for part in row["test"].split("; "):
+                self.assertIn(part.split(":")[0], registered, row)
 
     def test_without_a_driver_it_says_what_to_install(self):
         blind = dict(self.environment, VK_ICD_FILENAMES="/nowhere.json", VK_DRIVER_FILES="/nowhere.json")

@@ -18,6 +18,9 @@ class Pictures(CliTest):
         result = self.succeed_json("render", BOX, *SMALL, "-o", "a.png")
         self.assertEqual((result["size"], result["outputs"]), ("48x32", ["a.png"]))
         self.assertEqual(result["technique"], "irradiance")
+        declared = {option["name"]: option["default"] for technique in self.succeed_json("list", "--techniques")["techniques"]
+                    for option in technique["options"] if technique["name"] == "irradiance"}
+        self.assertEqual(result["settings"], declared)
         self.assertTrue(result["passes"])
         picture = self.picture("a.png")
         self.assertEqual(picture["size"], "48x32")
