@@ -4,7 +4,6 @@
 // Baking precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-3).
 #pragma once
 
-#include <gloam/progress.h>
 #include <gloam/scene.h>
 
 #include <filesystem>

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <gloam/error.h>
-#include <gloam/progress.h>
 
 #include <array>
 #include <cstdint>

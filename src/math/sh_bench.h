@@ -4,7 +4,7 @@
 // Times the spherical-harmonics routines on one thread: `gloam bench sh` and the sh_bench program print these rows.
 #pragma once
 
-#include <gloam/progress.h>
+#include <gloam/error.h>
 
 #include <string>
 #include <vector>

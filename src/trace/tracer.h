@@ -8,7 +8,6 @@
 // that is drawn.
 #pragma once
 
-#include <gloam/progress.h>
 #include <gloam/scene.h>
 
 #include <memory>
