@@ -63,9 +63,10 @@ int coresUsed(const BakeOptions& options) {
 }
 
 // What each pass costs in shadow rays: bounce rays are fewer, but closest hits and their gathering take about four times
-// as long as shadow rays; a third of the hemisphere is blocked in a common scene.
+// as long as shadow rays; a third of the hemisphere is blocked in a common scene; later bounces find their hits kept.
 std::vector<double> passWork(const DirectionTables& tables, int bounces) {
   std::vector<double> work(std::size_t(bounces) + 1, 4.0 / 3.0 * double(tables.bounce_tiles));
+  for (std::size_t b = 2; b < work.size(); ++b) work[b] *= 0.2;
   work[0] = double(tables.tiles);
   return work;
 }
@@ -92,7 +93,7 @@ std::size_t runPass(BakeState& state, BakeMeter& meter, const Work& work) {
   return rays;
 }
 
-void runPasses(const BakePasses& passes, BakeState& state, BakeMeter& meter, BakeReport& report) {
+void runPasses(BakePasses& passes, BakeState& state, BakeMeter& meter, BakeReport& report) {
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto since = [&](auto start) { return std::chrono::duration<double>(now() - start).count(); };
   while (state.pass <= state.bounces) {
@@ -170,7 +171,7 @@ void bakeShadowed(const Scene& scene, const PosedScene& posed, const BakePoints&
     report.resumed = readCheckpoint(options.checkpoint, fingerprint, state);
   }
   const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true}, progress);
-  const BakePasses passes(scene, posed, points, tracer, tables);
+  BakePasses passes(scene, posed, points, tracer, tables);
   BakeMeter meter(progress, options, fingerprint, state, passWork(tables, state.bounces));
   runPasses(passes, state, meter, report);
   std::error_code ignored;
@@ -195,7 +196,9 @@ BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
   const std::size_t transfer = estimate.vertices * coefficients * colors * sizeof(float);
   // Per triangle: the hierarchy (130 bytes, measured), the points' own lists; per vertex: positions, normals, tangents,
   // texture coordinates of the unique copy and the table that welds.
-  estimate.memory_bytes = bakeStateBytes(estimate.vertices, tables, bouncesOf(options)) +
+  const std::size_t hits = estimate.vertices * std::size_t(tables.bounce_tiles) * kTileSize / 2;
+  const std::size_t kept = bouncesOf(options) > 1 ? std::min(kKeptHitsBytes, hits * sizeof(GatheredHit)) : 0;
+  estimate.memory_bytes = kept + bakeStateBytes(estimate.vertices, tables, bouncesOf(options)) +
                           tables.memoryBytes() + transfer + estimate.triangles * (130 + 40) +
                           estimate.vertices * (60 + 90);
   estimate.file_bytes = transfer + estimate.triangles * 12 + estimate.vertices * 48;

@@ -4,10 +4,17 @@
 // The passes of a bake (PRT-1, PRT-3), a block of points at a time.
 #pragma once
 
+#include <array>
+#include <atomic>
+
+#include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_state.h"
 #include "trace/tracer.h"
 
 namespace gloam::prt {
+
+/// Most memory for hits that bounces after the first need not trace again.
+inline constexpr std::size_t kKeptHitsBytes = std::size_t(512) << 20;
 
 /// All that passes read. Thread-safe: a block writes its own rows of the state alone.
 class BakePasses {
@@ -18,22 +25,21 @@ class BakePasses {
   /// Shadow rays and DS of one block. Returns the number of rays.
   std::size_t shadowBlock(std::size_t block, BakeState& state) const;
   /// M^b of one block from M^{b-1}. Returns the number of rays.
-  std::size_t bounceBlock(std::size_t block, BakeState& state) const;
+  std::size_t bounceBlock(std::size_t block, BakeState& state);
   /// Gives points that cannot show what they see (Place) the mean of their neighbours; `row` floats a point. To be called
   /// between passes.
   void fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const;
 
  private:
-  struct Scratch;
   Place placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const;
   bool fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known, std::size_t row,
                           std::vector<float>& values) const;
   void projectPoints(std::size_t begin, std::size_t count, const std::uint16_t* blocked, float* sums) const;
   std::size_t digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const;
   bool findBetterPlace(std::size_t point, RaySite& site) const;
-  void gatherPoint(std::size_t point, const BakeState& state, Scratch& scratch) const;
-  void addHits(const trace::HitPacket& hits, std::uint32_t lanes, const float* cosines,
-               Scratch& scratch) const;
+  std::size_t traceHits(std::size_t point, const BakeState& state, std::vector<GatheredHit>& hits) const;
+  void addHits(const trace::RayPacket& rays, const trace::HitPacket& found, std::uint32_t lanes,
+               const float* cosines, std::vector<GatheredHit>& hits) const;
   bool isBack(int instance, int triangle, float along_normal) const;
 
   const Scene& scene_;
@@ -48,6 +54,14 @@ class BakePasses {
   };
   std::vector<Surface> surfaces_;  ///< [instance]
   std::vector<glm::vec3> probes_;  ///< directions of placeOf
+
+  struct KeptHits {
+    std::vector<GatheredHit> hits;
+    std::array<std::size_t, kBlockSize> end{};  ///< of each point's hits
+    bool complete = false;
+  };
+  std::vector<KeptHits> kept_hits_;  ///< [block]; each is touched by one thread at a time
+  std::atomic<std::size_t> kept_bytes_{0};
 };
 
 }  // namespace gloam::prt

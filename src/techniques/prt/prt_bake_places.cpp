@@ -1,0 +1,113 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Points that cannot show what they see: vertices inside other geometry, or in nooks smaller than their mesh. Left alone
+// they would be interpolated as black spots into what is visible.
+#include <algorithm>
+
+#include "math/sampling.h"
+#include "techniques/prt/prt_bake_kernels.h"
+#include "techniques/prt/prt_bake_passes.h"
+
+namespace gloam::prt {
+namespace {
+
+// From where on a point is taken for one inside something. A wall that reaches through a floor made of one sheet sees the
+// sheet's back over half its hemisphere; inside a closed box it is all of it. Backs of double-sided sheets are seen by any
+// point behind a leaf, so there only being shut in counts.
+constexpr float kBuriedBySheets = 1.0f / 3.0f;
+constexpr float kBuriedByAll = 0.9f;
+// A point is cramped where nearly all that it sees is nearer than half the spacing of its mesh: under the rounded edge of
+// a box, say. Its darkness is real, but its mesh would spread it over whole cells.
+constexpr float kCramped = 0.6f;
+constexpr float kCrampedReach = 0.5f;
+
+}  // namespace
+
+Place BakePasses::placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const {
+  float total = 0.0f, near = 0.0f, backs = 0.0f, sheet_backs = 0.0f;
+  for (const glm::vec3& direction : probes_) {
+    const float cosine = glm::dot(direction, normal);
+    if (cosine <= 0.0f) continue;
+    total += cosine;
+    const trace::Hit hit = tracer_.closest({origin, direction});
+    if (!hit) continue;
+    if (hit.distance < reach) near += cosine;
+    if (!isBack(hit.instance, hit.triangle, glm::dot(direction, hit.geometric_normal))) continue;
+    backs += cosine;
+    if (!surfaces_[std::size_t(hit.instance)].double_sided) sheet_backs += cosine;
+  }
+  if (sheet_backs > kBuriedBySheets * total || backs > kBuriedByAll * total) return Place::kBuried;
+  return near > kCramped * total ? Place::kCramped : Place::kOpen;
+}
+
+// Looks for an open place on the faces around a point that is not, the nearest first. Returns whether the site was moved.
+bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
+  constexpr std::size_t kMostFaces = 12;
+  const glm::vec3& normal = points_.normals[point];
+  const float reach = kCrampedReach * meshSpacing(points_, point);
+  site.place = placeOf(site.origin, normal, reach);
+  if (site.place == Place::kOpen) return false;
+  const auto faces = points_.facesOf(point);
+  for (const float share : {0.05f, 0.2f, 0.5f, 0.8f}) {
+    for (std::size_t f = 0; f < std::min(kMostFaces, faces.size()); ++f) {
+      const glm::vec3 origin = rayOriginOnFace(points_, point, faces[f], share);
+      if (placeOf(origin, normal, reach) != Place::kOpen) continue;
+      site = {.origin = origin, .place = Place::kOpen};
+      return true;
+    }
+  }
+  return false;
+}
+
+// A point that is inside something, or in a nook too small for its mesh, gets another place to look from.
+std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const {
+  // Such points have much of the hemisphere blocked; the others are spared the question.
+  if (site.blocked_cosine <= kBuriedBySheets * sampling::kPi || !findBetterPlace(point, site)) return 0;
+  const std::size_t rays = traceBlocked(tracer_, tables_, site.origin, points_.normals[point], blocked);
+  projectPoints(point, 1, blocked, sums);
+  return rays;
+}
+
+// Mean of the neighbours whose value was known before this ring; false where there are none.
+bool BakePasses::fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known,
+                                    std::size_t row, std::vector<float>& values) const {
+  std::vector<double> sum(row, 0.0);
+  int neighbours = 0;
+  for (const std::uint32_t face : points_.facesOf(point)) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t q = points_.triangles[face][k];
+      if (!known[q] || q == point) continue;
+      ++neighbours;
+      for (std::size_t i = 0; i < row; ++i) sum[i] += double(values[q * row + i]);
+    }
+  }
+  for (std::size_t i = 0; i < row && neighbours > 0; ++i)
+    values[point * row + i] = float(sum[i] / neighbours);
+  return neighbours > 0;
+}
+
+// Ring by ring from the open. After the first ring what is cramped keeps its own: it lies in a gap that its mesh shows.
+// Meshes that are buried as a whole keep what they have.
+void BakePasses::fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const {
+  std::vector<std::uint8_t> known(state.points);
+  std::vector<std::uint32_t> waiting, filled;
+  for (std::size_t p = 0; p < state.points; ++p) {
+    known[p] = state.sites[p].place == Place::kOpen;
+    if (!known[p]) waiting.push_back(std::uint32_t(p));
+  }
+  for (bool first_ring = true; !waiting.empty(); first_ring = false) {
+    std::vector<std::uint32_t> later;
+    filled.clear();
+    for (const std::uint32_t p : waiting) {
+      const bool done = fillFromNeighbours(p, known, row, values);
+      const bool stays = first_ring && state.sites[p].place == Place::kCramped;
+      (done || stays ? filled : later).push_back(p);
+    }
+    if (filled.empty()) return;
+    for (const std::uint32_t p : filled) known[p] = 1;
+    waiting.swap(later);
+  }
+}
+
+}  // namespace gloam::prt
