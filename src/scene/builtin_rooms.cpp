@@ -184,7 +184,7 @@ Scene makeLamp(const Detail& detail, NamedValues&) {
   Light moon;
   moon.name = "moon";
   moon.type = Light::Type::kDirectional;
-  moon.intensity = {0.3f, 0.42f, 0.7f};
+  moon.intensity = {0.34f, 0.46f, 0.72f};
   builder.light(moon, {0, 3, 0}, {-0.8f, -1.0f, -0.55f});
   builder.camera({2.6f, 2.1f, 4.8f}, {-0.15f, 0.75f, -0.6f}, 35);
   return builder.finish();

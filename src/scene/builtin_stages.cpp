@@ -86,7 +86,7 @@ Scene makeMobile(const Detail& detail, NamedValues&) {
   constexpr float kSeconds = 8.0f;
   SceneBuilder builder("mobile");
   builder.place("ground", shapes::slab(2.2f, 2.2f, 0.2f, 0.05f, detail.cell(0.035f)),
-                builder.diffuse("ground", {0.5f, 0.48f, 0.45f}));
+                builder.diffuse("ground", {0.36f, 0.35f, 0.33f}));
   const int knot =
       builder.place("knot", shapes::torusKnot(2, 3, 0.46f, 0.2f, 0.105f, detail(260), detail(20)),
                     builder.diffuse("coral", {0.72f, 0.2f, 0.13f}), {0, 0.95f, 0});
@@ -117,7 +117,7 @@ Scene makeMobile(const Detail& detail, NamedValues&) {
       }
     }
   }
-  builder.camera({1.4f, 2.6f, 5.2f}, {0, 0.55f, 0}, 34);
+  builder.camera({1.4f, 2.9f, 5.2f}, {0, 0.5f, 0}, 35);
   builder.sky("mild");
   return builder.finish();
 }

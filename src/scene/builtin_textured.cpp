@@ -190,8 +190,10 @@ Scene makeTextured(const Detail& detail, NamedValues&) {
                 brick);
   addPlant(builder, detail, {-0.85f, 0, -0.45f});
   const int worn = wornPaint(builder);
-  builder.place("worn ball", shapes::withUvScale(shapes::uvSphere(0.42f, detail(72), detail(36)), {2, 1}),
-                worn, {0.25f, 0.42f, 0.25f});
+  // The seam of its longitudes looks away from the camera.
+  const Mesh ball = shapes::withUvScale(shapes::uvSphere(0.42f, detail(72), detail(36)), {2, 1});
+  builder.place("worn ball", shapes::transformed(ball, glm::rotate(glm::mat4(1.0f), kPi, {0, 1, 0})), worn,
+                {0.25f, 0.42f, 0.25f});
   builder.place("block",
                 shapes::transformed(shapes::roundedBox({0.3f, 0.3f, 0.3f}, 0.02f, detail.cell(0.04f), 2),
                                     glm::rotate(glm::mat4(1.0f), 0.5f, {0, 1, 0})),

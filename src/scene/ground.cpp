@@ -37,7 +37,7 @@ Mesh groundMesh(int cells, float radius) {
       const glm::vec2 disc = discFromSquare(square);
       mesh.positions.emplace_back(radius * disc.x, 0.0f, radius * disc.y);
       mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
-      mesh.tangents.emplace_back(1.0f, 0.0f, 0.0f, -1.0f);
+      mesh.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
       mesh.uv_sets[0].push_back(0.5f + 0.5f * disc);
     }
   }
