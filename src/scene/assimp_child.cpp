@@ -18,6 +18,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -58,15 +59,15 @@ void limitMemory([[maybe_unused]] std::uint64_t bytes) {
 
 [[noreturn]] void childMain(int pipe, const std::filesystem::path& path, double seconds, std::uint64_t bytes,
                             Scene (*work)(const std::filesystem::path&)) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
+  for (const int signal_number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGXCPU, SIGFPE, SIGBUS, SIGILL})
     signal(signal_number, SIG_DFL);
   signal(SIGINT, SIG_IGN);  // the parent ends us
   if (const int null = open("/dev/null", O_RDWR); null >= 0)
     dup2(null, 1), dup2(null, 2);  // the C library's last words
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  const auto cpu = static_cast<rlim_t>(seconds) + 2;  // should the parent be gone
-  const rlimit cpu_limit{cpu, cpu};
+  const auto cpu = static_cast<rlim_t>(std::ceil(seconds));
+  const rlimit cpu_limit{cpu, cpu + 1};
   setrlimit(RLIMIT_CPU, &cpu_limit);
   limitMemory(bytes);
 
@@ -151,18 +152,20 @@ Scene importInChild(const std::filesystem::path& path, double seconds, std::uint
                     const Progress& progress, Scene (*work)(const std::filesystem::path&)) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
+  const double patience =
+      seconds + 3.0;  // the child's own clock counts its CPU time; other programs may be busy too
+  const Error too_slow(
+      path.string(), fmt::format("assimp was not done with it after {:.0f} s, ample for its size", seconds));
   std::vector<std::uint8_t> output;
   Child child(path, seconds, bytes, work);
   while (child.readMore(output, 50)) {
     const double passed = std::chrono::duration<double>(Clock::now() - start).count();
     if (progress.stopRequested()) throw Interrupted("reading was interrupted");
-    if (passed > seconds)
-      throw Error(
-          path.string(),
-          fmt::format("assimp was not done with it after {:.0f} s, which is ample for its size", seconds));
+    if (passed > patience) throw too_slow;
     if (output.size() > bytes) throw Error(path.string(), "assimp made more of it than its size justifies");
   }
   const int signal_number = child.wait();
+  if (signal_number == SIGXCPU) throw too_slow;
   if (signal_number != 0 || output.empty())
     throw Error(path.string(),
                 fmt::format("assimp crashed on it (signal {}): the file is broken", signal_number));

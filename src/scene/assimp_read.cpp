@@ -89,7 +89,7 @@ Scene readWithAssimp(const fs::path& path, const Progress& progress) {
   progress.report(0.0, "reading " + path.filename().string());
   std::uint64_t size = 0;
   openForReading(path, &size);
-  const double seconds = 8.0 + static_cast<double>(size) / 1e6;
+  const double seconds = 5.0 + static_cast<double>(size) / 1e6;
   const std::uint64_t bytes = (std::uint64_t(640) << 20) + 100 * size;
   Scene scene = importInChild(path, seconds, bytes, progress, importWithAssimp);
   progress.report(0.7, "computing what " + path.filename().string() + " lacks");

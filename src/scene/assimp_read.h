@@ -29,7 +29,7 @@ Scene readWithAssimp(const std::filesystem::path& path, const Progress& progress
 Scene importWithAssimp(const std::filesystem::path& path);
 
 /// Runs `work` in a child process and returns the scene that it made. Throws its Error; Error also when it crashed, took
-/// longer than `seconds` or more memory than `bytes`.
+/// longer than `seconds` of CPU time (or 3 s more by the clock) or more memory than `bytes`.
 Scene importInChild(const std::filesystem::path& path, double seconds, std::uint64_t bytes,
                     const Progress& progress, Scene (*work)(const std::filesystem::path&));
 

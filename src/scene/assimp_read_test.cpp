@@ -109,7 +109,8 @@ Scene crash(const std::filesystem::path&) {
   std::abort();
 }
 Scene runForever(const std::filesystem::path&) {
-  for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (volatile int i = 0;; i = i + 1) {
+  }
 }
 Scene takeAllMemory(const std::filesystem::path&) {
   std::vector<std::vector<char>> blocks;
@@ -142,7 +143,7 @@ TEST(ImportInChild, GivesBackTheSceneOrTheError) {
 TEST(ImportInChild, CrashesTimeAndMemoryAreErrors) {
   EXPECT_EQ(childRefusal(crash),
             "file.obj: assimp crashed on it (signal " + std::to_string(SIGABRT) + "): the file is broken");
-  EXPECT_NE(childRefusal(runForever, 0.2).find("was not done with it"), std::string::npos);
+  EXPECT_NE(childRefusal(runForever, 1.0).find("was not done with it"), std::string::npos);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_NE(childRefusal(takeAllMemory).find("needed more than 268 MB"), std::string::npos);
 #endif

@@ -24,16 +24,17 @@ bool isPicture(const std::string& path) {
 
 std::string readScene(const std::string& path) {
   const gloam::Scene scene = gloam::loadScene(path);
-  std::size_t triangles = 0;
-  for (const gloam::Mesh& mesh : scene.meshes) triangles += mesh.triangleCount();
+  std::size_t triangles = 0, vertices = 0;
+  for (const gloam::Mesh& mesh : scene.meshes)
+    triangles += mesh.triangleCount(), vertices += mesh.vertexCount();
   std::size_t drawn = 0;
   for (const float time_s :
        {0.0f, scene.duration_s() / 2.0f})  // what was read must also hold together in use
     drawn = gloam::pose(scene, time_s).instances.size();
   std::string warnings;
   for (const std::string& line : scene.warnings) warnings += "; " + line;
-  return fmt::format("ok: {} triangles, {} instances, {} materials, {} textures{}", triangles, drawn,
-                     scene.materials.size(), scene.textures.size(), warnings);
+  return fmt::format("ok: {} triangles, {} vertices, {} instances, {} materials, {} textures{}", triangles,
+                     vertices, drawn, scene.materials.size(), scene.textures.size(), warnings);
 }
 
 std::string readPicture(const std::string& path) {
