@@ -47,10 +47,13 @@ void limitMemory([[maybe_unused]] std::uint64_t bytes) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   std::ifstream statm("/proc/self/statm");
   std::uint64_t pages = 0;
-  if (!(statm >> pages)) return;
+  constexpr std::uint64_t kUsualBytes = std::uint64_t{1}
+                                        << 30;  // what a process may hold already where /proc is missing
+  const auto page_bytes = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  if (!(statm >> pages)) pages = kUsualBytes / page_bytes;
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0) return;
-  const std::uint64_t wanted = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
+  const std::uint64_t wanted = pages * page_bytes + bytes;
   if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < wanted) return;
   limit.rlim_cur = wanted;
   setrlimit(RLIMIT_AS, &limit);
