@@ -19,9 +19,14 @@ std::string kindText(const Option& option) {
 void addTechniqueOption(CLI::App& app, TechniqueChoice& choice, const TechniqueInfo& info,
                         const Option& option) {
   const std::string flag = fmt::format("--{}.{}", info.name, option.name);
-  const auto set = [&choice, &info, name = std::string(option.name)](const std::string& text) {
+  const auto set = [&choice, &info, flag, name = std::string(option.name)](const std::string& text) {
     Settings settings(info.options);
-    settings.set(name, text);  // throws where the value is wrong
+    try {
+      settings.set(name, text);
+    } catch (const Error& error) {  // "option 'order': …": here options have longer names
+      const std::string message = error.what();
+      throw Error(flag, message.substr(std::min(message.find(": ") + 2, message.size())));
+    }
     choice.values[info.name][name] = text;
   };
   app.add_option_function<std::string>(flag, set, option.help)

@@ -122,7 +122,7 @@ class Numbers(CliTest):
         for technique in self.succeed_json("list", "--techniques")["techniques"]:
             for option in technique["options"]:
                 flag = f"--{technique['name']}.{option['name']}"
-                self.refuse("render", BOX, f"{flag}=certainly-not", "-o", "a.png", says=["certainly-not"])
+                self.refuse("render", BOX, f"{flag}=certainly-not", "-o", "a.png", says=[flag, "certainly-not"])
 
     def test_bench(self):
         self.refuse("bench", "irradiance", "--frames", "0", says="--frames")
