@@ -216,6 +216,13 @@ TEST_F(GltfBroken, CountsWithoutAnyBytesBehindThemAreBounded) {
   }
 }
 
+TEST_F(GltfBroken, MillionsOfEmptyObjectsAreBounded) {
+  std::string text = R"({"asset":{"version":"2.0"},"nodes":[{})";
+  for (int i = 0; i < 1000000; ++i) text += ",{}";
+  EXPECT_NE(refusal(put("a.gltf", text + "]}")).find("nodes: 1000001 elements would need"),
+            std::string::npos);
+}
+
 TEST_F(GltfBroken, ManyPrimitivesOverOneArrayAreBounded) {
   GltfFile file = triangleFile();
   const int indices = file.accessor(std::vector<std::uint8_t>(300000, 1), "SCALAR");

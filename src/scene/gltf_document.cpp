@@ -10,7 +10,6 @@
 #include <iterator>
 
 #include "image/limits.h"
-#include "scene/gltf_accessors.h"
 #include "scene/gltf_compression.h"
 #include "scene/gltf_schema.h"
 
@@ -19,21 +18,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kRead[] = {
-    "KHR_lights_punctual",
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-    "KHR_draco_mesh_compression",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_node_visibility",
-    "EXT_meshopt_compression",
-    "EXT_mesh_gpu_instancing",
-    "EXT_lights_image_based",
-    "GLOAM_precomputed_transfer",
-    "KHR_materials_variants"};  // the default variant is shown
+constexpr std::string_view kRead[] = {"KHR_lights_punctual",
+                                      "KHR_texture_transform",
+                                      "KHR_mesh_quantization",
+                                      "KHR_draco_mesh_compression",
+                                      "KHR_materials_emissive_strength",
+                                      "KHR_materials_pbrSpecularGlossiness",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_unlit",
+                                      "KHR_node_visibility",
+                                      "EXT_meshopt_compression",
+                                      "EXT_mesh_gpu_instancing",
+                                      "EXT_lights_image_based",
+                                      "GLOAM_precomputed_transfer",
+                                      "KHR_materials_variants"};  // the default variant is shown
 /// They say nothing about the picture.
 constexpr std::string_view kSilent[] = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_texture_basisu"};
 
@@ -62,6 +60,14 @@ bool nestedTooDeep(std::string_view text) {
   return false;
 }
 
+/// Extensions are read from our own JSON; tinygltf would make a large value of every number in them.
+void stripExtensions(Json& value) {
+  if (value.is_object())
+    for (const char* name : {"extensions", "extras"}) value.erase(name);
+  if (value.is_structured())
+    for (Json& member : value) stripExtensions(member);
+}
+
 /// nlohmann's messages without "[json.exception.parse_error.101] ".
 std::string withoutPrefix(const std::string& message) {
   const std::size_t end = message.starts_with("[json.exception") ? message.find("] ") : std::string::npos;
@@ -85,6 +91,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path)
   }
   checkVersionAndExtensions();
   checkAgainstSchema(json, place_);
+  chargeObjects();
   checkRanges();
   buildModel();
 }
@@ -152,32 +159,6 @@ void GltfDocument::checkVersionAndExtensions() {
       warn("extension " + oneLine(name.get<std::string>()) + " is left out");
 }
 
-void GltfDocument::checkRanges() {
-  for (std::size_t i = 0; i < array("cameras").size(); ++i) {
-    const Json& camera = json["cameras"][i];
-    const auto& type = camera["type"].get_ref<const std::string&>();
-    if (!camera.contains(type)) fail(fmt::format("cameras[{}].{}", i, type), "missing");
-  }
-  for (std::size_t i = 0; i < array("bufferViews").size(); ++i) {
-    const Json& view = json["bufferViews"][i];
-    const std::string where = fmt::format("bufferViews[{}]", i);
-    if (view.contains("byteStride") && view["byteStride"].get<int>() % 4 != 0)
-      fail(where + ".byteStride",
-           fmt::format("a multiple of 4 was expected, found {}", view["byteStride"].get<int>()));
-    const Json* meshopt = extension(view, "EXT_meshopt_compression");
-    if (meshopt) checkMeshoptView(*this, view, *meshopt, where);
-    const Json& source = meshopt ? *meshopt : view;
-    const std::uint64_t offset = source.value("byteOffset", std::uint64_t(0)), length = source["byteLength"];
-    const int index = source["buffer"];
-    const std::uint64_t available = json["buffers"][static_cast<std::size_t>(index)]["byteLength"];
-    if (offset > available || length > available - offset)
-      fail(where + ".byteLength", fmt::format("bytes {} to {} lie beyond buffers[{}] ({} bytes)", offset,
-                                              offset + length, index, available));
-  }
-  for (std::size_t i = 0; i < array("accessors").size(); ++i)
-    checkAccessor(*this, json["accessors"][i], fmt::format("accessors[{}]", i));
-}
-
 void GltfDocument::buildModel() {
   // tinygltf insists on loading buffers and pictures, and refuses two valid things: indices without a buffer view (Draco)
   // and channels without a node. It is shown a copy without the former and with stand-ins for the latter.
@@ -185,7 +166,8 @@ void GltfDocument::buildModel() {
   Json copy = json;
   json["buffers"] = buffers.is_array() ? std::move(buffers) : Json::array();
   json["images"] = images.is_array() ? std::move(images) : Json::array();
-  for (const char* name : {"buffers", "images", "extensions"}) copy.erase(name);
+  for (const char* name : {"buffers", "images"}) copy.erase(name);
+  stripExtensions(copy);
   const std::size_t views = array("bufferViews").size();
   copy["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
   if (copy.contains("accessors"))

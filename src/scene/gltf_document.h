@@ -54,6 +54,7 @@ class GltfDocument {
   void readFile(const std::filesystem::path& path);
   void parse(std::string_view text);
   void checkVersionAndExtensions();
+  void chargeObjects();
   void checkRanges();
   void buildModel();
   ByteSpan buffer(int index);
