@@ -30,10 +30,10 @@ TransferKind kindOf(const std::string& kind) {
   return TransferKind::kInterreflected;
 }
 
-Json estimateJson(const BakeEstimate& estimate, const BakeOptions& options) {
+Json estimateJson(const BakeEstimate& estimate) {
   return {{"vertices", estimate.vertices},
           {"triangles", estimate.triangles},
-          {"rays", estimate.vertices * std::size_t(options.directions)},
+          {"rays", estimate.rays},
           {"memory_bytes", estimate.memory_bytes},
           {"file_bytes", estimate.file_bytes}};
 }
@@ -106,12 +106,12 @@ int runBake(BakeChoice choice, Console& console) {
   Scene scene = loadSceneToDraw(choice.scene, console);
   const BakeEstimate estimate = estimateBake(scene, choice.options);
   if (choice.estimate_only) {
-    console.print(console.json ? jsonText(estimateJson(estimate, choice.options))
-                               : estimateText(estimate, choice.options));
+    console.print(console.json ? jsonText(estimateJson(estimate))
+                               : estimateText(estimate));
     return kDone;
   }
   choice.options.checkpoint = choice.output + ".checkpoint";
-  console.remark(estimateText(estimate, choice.options));
+  console.remark(estimateText(estimate));
   BakeReport report;
   const Scene baked = bakeWithCheckpoint(scene, choice, console, report);
   console.endProgress();

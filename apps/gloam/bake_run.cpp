@@ -65,10 +65,9 @@ Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& conso
 
 }  // namespace
 
-std::string estimateText(const BakeEstimate& estimate, const BakeOptions& options) {
-  const auto rays = double(estimate.vertices) * double(options.directions);
+std::string estimateText(const BakeEstimate& estimate) {
   return fmt::format("{} vertices, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
-                     countText(estimate.vertices), countText(estimate.triangles), rays,
+                     countText(estimate.vertices), countText(estimate.triangles), double(estimate.rays),
                      bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
 }
 
@@ -90,7 +89,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s,
     }
     options.checkpoint = *folder / (key + ".checkpoint");
   }
-  console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate, options)));
+  console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate)));
   console.release();
   Scene baked = bakeResumed(scene, options, console);
   console.endProgress();

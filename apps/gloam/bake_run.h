@@ -11,7 +11,7 @@
 namespace gloam::cli {
 
 /// What a bake will take, in one line for people.
-std::string estimateText(const BakeEstimate& estimate, const BakeOptions& options);
+std::string estimateText(const BakeEstimate& estimate);
 
 /// A scene without transfer, baked with default options as it stands at `time_s`. Finished bakes are kept under
 /// $XDG_CACHE_HOME/gloam (~/.cache/gloam) by content and taken from there; `use_cache` false neither reads nor writes

@@ -34,6 +34,7 @@ struct BakeOptions {
 /// What a bake will take at most, before it starts.
 struct BakeEstimate {
   std::size_t vertices = 0, triangles = 0;
+  std::size_t rays = 0;  ///< of the first pass: half of all directions are below a vertex's horizon
   std::size_t memory_bytes = 0, file_bytes = 0;
 };
 BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options);

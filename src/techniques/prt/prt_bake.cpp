@@ -66,7 +66,7 @@ int coresUsed(const BakeOptions& options) {
 // as long as shadow rays; a third of the hemisphere is blocked in a common scene; later bounces find their hits kept.
 std::vector<double> passWork(const DirectionTables& tables, int bounces) {
   std::vector<double> work(std::size_t(bounces) + 1, 4.0 / 3.0 * double(tables.bounce_tiles));
-  for (std::size_t b = 2; b < work.size(); ++b) work[b] *= 0.2;
+  for (std::size_t b = 2; b < work.size(); ++b) work[b] *= 0.25;
   work[0] = double(tables.tiles);
   return work;
 }
@@ -191,6 +191,9 @@ BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
   }
   const DirectionTables tables =
       makeDirectionTables(options.order, options.directions, bounceDirectionsOf(options));
+  if (options.kind != TransferKind::kUnshadowed) {
+    estimate.rays = estimate.vertices * std::size_t(tables.tiles) * kTileSize / 2;
+  }
   const std::size_t coefficients = std::size_t(tables.coefficients);
   const std::size_t colors = options.kind == TransferKind::kInterreflected ? 4 : 1;
   const std::size_t transfer = estimate.vertices * coefficients * colors * sizeof(float);
