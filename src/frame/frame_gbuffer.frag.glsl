@@ -14,15 +14,14 @@
 
 layout(constant_id = 0) const bool textured = true;
 layout(constant_id = 1) const bool alpha_mask = false;
+layout(constant_id = 2) const bool vertex_colors = false;
 
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
-layout(scalar, set = 0, binding = 6) readonly buffer Instances { InstanceRow at[]; } instances;
-layout(scalar, set = 0, binding = 7) readonly buffer Meshes { MeshRow at[]; } meshes;
-layout(scalar, set = 0, binding = 8) readonly buffer Materials { MaterialRow at[]; } materials;
 layout(set = 1, binding = 0) uniform sampler2D base_color_map;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_map;
 layout(set = 1, binding = 2) uniform sampler2D normal_map;
 layout(set = 1, binding = 3) uniform sampler2D emission_map;
+layout(scalar, set = 1, binding = 4) uniform MaterialBlock { MaterialRow row; } material;
 
 layout(location = 0) in vec3 from_eye;
 layout(location = 1) in vec3 normal;
@@ -58,12 +57,10 @@ vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
 }
 
 void main() {
-  uint mesh = instances.at[instance_row].mesh;
-  MaterialRow material = materials.at[meshes.at[mesh].material];
-  vec4 base = material.base_color;
-  if (meshes.at[mesh].first_color != kAbsent) base *= color;
-  float roughness = material.roughness, metallic = material.metallic;
-  vec3 glow = material.emission;
+  vec4 base = material.row.base_color;
+  if (vertex_colors) base *= color;
+  float roughness = material.row.roughness, metallic = material.row.metallic;
+  vec3 glow = material.row.emission;
   vec3 smooth_normal = normalize(normal);
   vec3 shading = smooth_normal;
   if (textured) {
@@ -73,15 +70,15 @@ void main() {
     metallic *= factors.y;
     glow *= texture(emission_map, uv_normal_and_emission.zw).rgb;
     vec3 texel = texture(normal_map, uv_normal_and_emission.xy).xyz;
-    if ((material.flags & kMaterialNormalMap) != 0u)
-      shading = mappedNormal(smooth_normal, texel, material.normal_scale);
+    if ((material.row.flags & kMaterialNormalMap) != 0u)
+      shading = mappedNormal(smooth_normal, texel, material.row.normal_scale);
   }
   vec3 geometric = faceNormal(smooth_normal);
-  if (alpha_mask && base.a < material.alpha_cutoff) discard;
+  if (alpha_mask && base.a < material.row.alpha_cutoff) discard;
 
   if (dot(smooth_normal, geometric) < 0.0) shading = -shading;
   roughness = clamp(roughness, 0.0, 1.0);
-  Lobes lobes = makeLobes(base.rgb, clamp(metallic, 0.0, 1.0), roughness, material.specular);
+  Lobes lobes = makeLobes(base.rgb, clamp(metallic, 0.0, 1.0), roughness, material.row.specular);
   ids = uvec2(instance_row + 1u, gl_PrimitiveID);
   normals = uvec2(packNormal(shading), packNormal(geometric));
   diffuse = vec4(lobes.diffuse, roughness);

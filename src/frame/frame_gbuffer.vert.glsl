@@ -16,7 +16,7 @@ layout(scalar, set = 0, binding = 5) readonly buffer Colors { uvec2 at[]; } colo
 layout(scalar, set = 0, binding = 6) readonly buffer Instances { InstanceRow at[]; } instances;
 layout(scalar, set = 0, binding = 9) readonly buffer DrawOrder { uint at[]; } draw_order;
 layout(scalar, set = 0, binding = 7) readonly buffer Meshes { MeshRow at[]; } meshes;
-layout(scalar, set = 0, binding = 8) readonly buffer Materials { MaterialRow at[]; } materials;
+layout(scalar, set = 1, binding = 4) uniform MaterialBlock { MaterialRow row; } material;
 
 layout(location = 0) out vec3 from_eye;
 layout(location = 1) out vec3 normal;
@@ -29,8 +29,8 @@ layout(location = 6) flat out uint instance_row;
 vec2 textureCoordinate(MeshRow mesh, int slot) {
   uint first = mesh.first_uv[slot];
   vec2 uv = first == kAbsent ? vec2(0.0) : uvs.at[first + gl_VertexIndex];
-  vec4 m = materials.at[mesh.material].texture_from_uv[slot];
-  return m.xy * uv.x + m.zw * uv.y + materials.at[mesh.material].texture_offset[slot];
+  vec4 m = material.row.texture_from_uv[slot];
+  return m.xy * uv.x + m.zw * uv.y + material.row.texture_offset[slot];
 }
 
 void main() {

@@ -81,10 +81,12 @@ struct LightRow {
   float cos_outer;
   uint first_map;
   uint map_count;
+  uint unused[49];  // as ShadowView
 };
-GLOAM_SHARED_SIZE(LightRow, 60)
+GLOAM_SHARED_SIZE(LightRow, 256)
 
-/// One layer of the shadow maps. Depth is reversed as in FrameView.
+/// One layer of the shadow maps. Depth is reversed as in FrameView. As long as the step at which any device binds parts of
+/// buffers, so that each lamp binds its own rows.
 struct ShadowView {
   mat4 clip_from_world;
   vec3 origin;
@@ -95,8 +97,9 @@ struct ShadowView {
   float half_height;
   vec3 forward;
   float depth_range;  // orthographic; perspective: 0
+  float unused[32];
 };
-GLOAM_SHARED_SIZE(ShadowView, 128)
+GLOAM_SHARED_SIZE(ShadowView, 256)
 
 GLOAM_SHARED_CONST int kShLightCoefficients = 36;
 /// The sharpest Phong lobe that order 6 shows without rings: its truncated kernel dips to -6 % of its peak (exponent 20:

@@ -41,7 +41,11 @@ GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::Buffer
   scene.bindSurface(scene.bindPlaces(pass));
   for (const DrawRange& range : scene.draws()) {
     const GpuMesh& mesh = scene.meshes()[range.mesh];
-    auto& draw = pass.draw().specialize("textured", mesh.textured).specialize("alpha_mask", mesh.alpha_mask);
+    auto& draw = pass.draw()
+                     .specialize("textured", mesh.textured)
+                     .specialize("alpha_mask", mesh.alpha_mask)
+                     .specialize("vertex_colors", mesh.vertex_colors)
+                     .read("material", scene.material(mesh.row.material));
     for (int slot = 0; slot < kTextureSlots; ++slot) {
       const Textures::Bound map = scene.textures().map(static_cast<int>(mesh.row.material), slot);
       draw.sample(kMapNames[std::size_t(slot)], *map.image, map.sampler);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 
 namespace gloam::frame {
@@ -68,6 +70,7 @@ GpuMesh appendMesh(VertexArrays& arrays, const Mesh& mesh, const Material& mater
   const auto slots = textureSlots(material);
   result.textured =
       std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return bool(*slot); });
+  result.vertex_colors = mesh.colors.size() == mesh.vertexCount();
   result.transfer = mesh.transfer;
   result.row.first_vertex = static_cast<std::uint32_t>(arrays.positions.size());
   result.row.first_index = static_cast<std::uint32_t>(arrays.indices.size());
@@ -117,8 +120,11 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene) : device_(device), t
     meshes_.push_back(appendMesh(arrays, mesh, scene.materials[std::size_t(mesh.material)]));
     rows.push_back(meshes_.back().row);
   }
-  std::vector<MaterialRow> materials;
-  for (const Material& material : scene.materials) materials.push_back(rowOf(material));
+  std::vector<std::byte> materials(scene.materials.size() * kMaterialStride);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const MaterialRow row = rowOf(scene.materials[i]);
+    std::memcpy(&materials[i * kMaterialStride], &row, sizeof(row));
+  }
   static_vertices_ = static_cast<std::uint32_t>(arrays.positions.size());
   positions_ = gpu::Buffer(device, "frame.positions", arrays.positions);
   normals_ = gpu::Buffer(device, "frame.normals", arrays.normals);

@@ -17,7 +17,7 @@ struct GpuMesh {
   std::string name;
   MeshRow row{};
   std::uint32_t vertex_count = 0, index_count = 0;
-  bool textured = false, alpha_mask = false;
+  bool textured = false, alpha_mask = false, vertex_colors = false;
   glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
   std::shared_ptr<const Transfer> transfer;  ///< null unless baked
 };
@@ -49,11 +49,16 @@ class GpuScene {
   /// Changes whenever the number, meshes or kinds of instances do: techniques then make anew what they hold an instance.
   std::uint64_t layoutRevision() const { return layout_revision_; }
 
-  // Bindings by these names: positions, normals, tangents, uvs, colors, indices, meshes, materials, instances, draw_order.
+  // Bindings by these names: positions, normals, tangents, uvs, colors, indices, meshes, instances, draw_order; a draw's own
+  // are `material` (a uniform block) and the maps.
   gpu::BufferRef positions() const { return positions_; }
   gpu::BufferRef indices() const { return indices_; }
   gpu::BufferRef instanceRows() const { return instance_rows_; }
   gpu::BufferRef meshRows() const { return mesh_rows_; }
+  /// The MaterialRow of one material.
+  gpu::BufferRef material(std::uint32_t index) const {
+    return gpu::BufferRef(material_rows_).slice(std::size_t(index) * kMaterialStride, sizeof(MaterialRow));
+  }
   /// Binds what a vertex shader pulls to find its place: positions, instances, draw_order.
   template <class Pass>
   Pass& bindPlaces(Pass& pass) const {
@@ -61,15 +66,14 @@ class GpuScene {
         .read("instances", instance_rows_)
         .read("draw_order", draw_order_);
   }
-  /// Binds the rest of what the G-buffer pulls: normals, tangents, uvs, colors, meshes, materials.
+  /// Binds the rest of what the G-buffer pulls: normals, tangents, uvs, colors, meshes.
   template <class Pass>
   Pass& bindSurface(Pass& pass) const {
     return pass.read("normals", normals_)
         .read("tangents", tangents_)
         .read("uvs", uvs_)
         .read("colors", colors_)
-        .read("meshes", mesh_rows_)
-        .read("materials", material_rows_);
+        .read("meshes", mesh_rows_);
   }
   /// Binds what is needed to find a triangle's corners: positions, indices, instances, meshes.
   template <class Pass>
@@ -79,16 +83,14 @@ class GpuScene {
         .read("instances", instance_rows_)
         .read("meshes", mesh_rows_);
   }
-  /// Binds what the holes of a surface need: uvs, colors, meshes, materials.
+  /// Binds what the holes of a surface need: uvs, colors, meshes.
   template <class Pass>
   Pass& bindMask(Pass& pass) const {
-    return pass.read("uvs", uvs_)
-        .read("colors", colors_)
-        .read("meshes", mesh_rows_)
-        .read("materials", material_rows_);
+    return pass.read("uvs", uvs_).read("colors", colors_).read("meshes", mesh_rows_);
   }
 
  private:
+  static constexpr std::size_t kMaterialStride = 256;  ///< where uniform blocks may begin on any device
   struct Kind {
     int mesh;
     bool deformed;

@@ -43,20 +43,27 @@ gpu::ImageRef upsample(gpu::FrameGraph& graph, const FrameInputs& inputs, const 
 }  // namespace
 
 gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs) {
-  if (inputs.shadow_maps.light_count == 0) return {};
-  const auto local_light = imageLike(graph, "frame.local_light", inputs.gbuffer);
-  graph.compute("frame.local_light", frame_local_light_spv)
-      .read("frame_view", inputs.view)
-      .read("lights", inputs.shadow_maps.lights)
-      .read("shadow_views", inputs.shadow_maps.views)
-      .read("shadow_maps", inputs.shadow_maps.maps)
-      .read("depth", inputs.gbuffer.depth)
-      .read("normals", inputs.gbuffer.normals)
-      .read("diffuse", inputs.gbuffer.diffuse)
-      .read("specular", inputs.gbuffer.specular)
-      .write("local_light", local_light)
-      .push(inputs.shadow_maps.light_count)
-      .dispatchOver(local_light);
+  const ShadowMaps& shadows = inputs.shadow_maps;
+  if (shadows.lights.empty()) return {};
+  // Sums of many lamps are kept in floats.
+  const auto local_light =
+      graph.create("frame.local_light", gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                       .width = inputs.gbuffer.width,
+                                                       .height = inputs.gbuffer.height});
+  for (std::size_t i = 0; i < shadows.lights.size(); ++i) {
+    auto& pass = graph.compute("frame.local_light", frame_local_light_spv);
+    (i == 0 ? pass.write("local_light", local_light) : pass.readWrite("local_light", local_light))
+        .specialize("first", i == 0)
+        .read("frame_view", inputs.view)
+        .read("light", shadows.lightRow(i))
+        .read("shadow_views", shadows.viewRows(i))
+        .sample("shadow_maps", shadows.maps, gpu::kNearestClamp)
+        .read("depth", inputs.gbuffer.depth)
+        .read("normals", inputs.gbuffer.normals)
+        .read("diffuse", inputs.gbuffer.diffuse)
+        .read("specular", inputs.gbuffer.specular)
+        .dispatchOver(local_light);
+  }
   return local_light;
 }
 

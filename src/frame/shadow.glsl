@@ -23,15 +23,27 @@ uint cubeFace(vec3 direction) {
   return direction.z >= 0.0 ? 4u : 5u;
 }
 
-/// Depth of the receiver's plane at place t of the map (tangents, or metres where orthographic), as the map stores it.
-/// `n` and `p` in the map's axes (right, up, forward).
-float planeDepth(ShadowView view, vec3 n, vec3 p, vec2 t, float reach) {
+/// Depth of the receiver's plane over the map, as the map stores it: dot(slope, (x, y, 1)) at place (x, y) of the map
+/// (tangents, or metres where orthographic), kept between low and high.
+struct PlaneDepth {
+  vec3 slope;
+  float low, high;
+};
+
+/// `n` and `p` in the map's axes (right, up, forward); the plane faces the lamp.
+PlaneDepth planeDepth(ShadowView view, vec3 n, vec3 p, float reach) {
   if (view.depth_range > 0.0) {
-    float z = p.z - dot(n.xy, t - p.xy) / n.z;  // n.z < 0: the plane faces the lamp
-    return 1.0 - clamp(z, p.z - reach, p.z + reach) / view.depth_range;
+    vec3 slope = vec3(n.xy / n.z, -dot(n, p) / n.z) / view.depth_range;
+    slope.z += 1.0;
+    return PlaneDepth(slope, 1.0 - (p.z + reach) / view.depth_range, 1.0 - (p.z - reach) / view.depth_range);
   }
-  float inverse_z = dot(n, vec3(t, 1.0)) / dot(n, p);
-  return view.z_near * clamp(inverse_z, 1.0 / (p.z + reach), 1.0 / max(p.z - reach, 0.5 * p.z));
+  return PlaneDepth(view.z_near * n / dot(n, p), view.z_near / (p.z + reach), view.z_near / max(p.z - reach, 0.5 * p.z));
+}
+
+/// Lit share of four texels, weighted; in the order of textureGather: (x0, y1) (x1, y1) (x1, y0) (x0, y0).
+float litTexels(PlaneDepth plane, vec2 xs, vec2 ys, vec2 weights_x, vec2 weights_y, vec4 nearest) {
+  vec4 own = clamp(plane.slope.x * xs.xyyx + plane.slope.y * ys.yyxx + plane.slope.z, plane.low, plane.high);
+  return dot(vec4(greaterThanEqual(own, nearest)), weights_x.xyyx * weights_y.yyxx);
 }
 
 /// Share of the light that arrives, 0 to 1. `normal`: geometric, on the lamp's side of the surface.
@@ -44,23 +56,24 @@ float shadowFactor(ShadowView view, sampler2DArray maps, int layer, vec3 positio
   vec2 half_size = vec2(view.half_width, view.half_height);
   float texel = 2.0 * max(half_size.x, half_size.y) / size * (orthographic ? 1.0 : p.z);
   p += texel * n;
-  if (!orthographic && p.z <= view.z_near) return 1.0;
-
   vec2 t = orthographic ? p.xy : p.xy / p.z;
   vec2 place = (t / half_size * vec2(0.5, -0.5) + 0.5) * size - 0.5;
-  if (any(lessThan(place, vec2(-1.0))) || any(greaterThan(place, vec2(size)))) return 1.0;  // outside: nothing drawn
+  bool outside = any(lessThan(place, vec2(-1.0))) || any(greaterThan(place, vec2(size)));
+  if (outside || (!orthographic && p.z <= view.z_near)) return 1.0;  // nothing was drawn there
+
+  PlaneDepth plane = planeDepth(view, n, p, kSteepestPlane * 2.0 * texel);
   vec2 base = floor(place), f = place - base;
-  float reach = kSteepestPlane * 2.0 * texel;
-  vec4 weight_x = vec4(1.0 - f.x, 1.0, 1.0, f.x), weight_y = vec4(1.0 - f.y, 1.0, 1.0, f.y);
-  float lit = 0.0;
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 4; ++x) {
-      ivec2 tap = clamp(ivec2(base) + ivec2(x - 1, y - 1), ivec2(0), ivec2(size) - 1);
-      vec2 tap_t = ((vec2(tap) + 0.5) / size * 2.0 - 1.0) * vec2(half_size.x, -half_size.y);
-      float nearest = texelFetch(maps, ivec3(tap, layer), 0).x;
-      lit += planeDepth(view, n, p, tap_t, reach) >= nearest ? weight_x[x] * weight_y[y] : 0.0;
-    }
-  }
+  vec4 columns = clamp(base.x + vec4(-1.0, 0.0, 1.0, 2.0), 0.0, size - 1.0);
+  vec4 rows = clamp(base.y + vec4(-1.0, 0.0, 1.0, 2.0), 0.0, size - 1.0);
+  vec4 xs = ((columns + 0.5) / size * 2.0 - 1.0) * half_size.x;
+  vec4 ys = (1.0 - (rows + 0.5) / size * 2.0) * half_size.y;
+  vec4 weights_x = vec4(1.0 - f.x, 1.0, 1.0, f.x), weights_y = vec4(1.0 - f.y, 1.0, 1.0, f.y);
+  vec3 corner = vec3(base / size, float(layer));  // between the first and second column and row
+  float two = 2.0 / size;
+  float lit = litTexels(plane, xs.xy, ys.xy, weights_x.xy, weights_y.xy, textureGather(maps, corner));
+  lit += litTexels(plane, xs.zw, ys.xy, weights_x.zw, weights_y.xy, textureGather(maps, corner + vec3(two, 0.0, 0.0)));
+  lit += litTexels(plane, xs.xy, ys.zw, weights_x.xy, weights_y.zw, textureGather(maps, corner + vec3(0.0, two, 0.0)));
+  lit += litTexels(plane, xs.zw, ys.zw, weights_x.zw, weights_y.zw, textureGather(maps, corner + vec3(two, two, 0.0)));
   return lit / 9.0;
 }
 

@@ -38,7 +38,8 @@ void addDraws(gpu::RasterPass& pass, const GpuScene& scene, const glm::mat4& cli
     auto& draw = pass.draw();
     if (masked) {
       const Textures::Bound map = scene.textures().map(static_cast<int>(mesh.row.material), 0);
-      draw.sample("base_color_map", *map.image, map.sampler);
+      draw.sample("base_color_map", *map.image, map.sampler)
+          .read("material", scene.material(mesh.row.material));
     }
     draw.indexed(scene.indices(), mesh.index_count, range.count, mesh.row.first_index, 0, range.first_place);
   }
@@ -48,9 +49,9 @@ void addDraws(gpu::RasterPass& pass, const GpuScene& scene, const glm::mat4& cli
 
 ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan) {
   ShadowMaps result;
-  result.light_count = static_cast<std::uint32_t>(plan.lights.size());
-  result.lights = graph.upload("frame.lights", plan.lights);
-  result.views = graph.upload("frame.shadow_views", plan.shadow_views);
+  result.lights = plan.lights;
+  result.light_rows = graph.upload("frame.lights", plan.lights);
+  result.view_rows = graph.upload("frame.shadow_views", plan.shadow_views);
   const int layers = std::max(static_cast<int>(plan.shadow_views.size()), 1);
   const int size = plan.shadow_views.empty() ? 1 : plan.map_size;
   result.maps = graph.create(
