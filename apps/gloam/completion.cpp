@@ -118,7 +118,7 @@ std::string bashScript() {
 std::function<int()> declareCompletion(CLI::App& app, Console& console) {
   const auto shell = std::make_shared<std::string>();
   addChoice(app, "SHELL", *shell, {"bash"}, "bash")->required();
-  return [&console] {
+  return [shell, &console] {
     console.print(bashScript());
     return kDone;
   };

@@ -56,11 +56,11 @@ class List(CliTest):
 
     def test_tests_that_rows_name_are_registered(self):
         build = pathlib.Path(GLOAM).resolve().parents[1]
+        if not (build / "CMakeCache.txt").exists():
+            self.skipTest("gloam is not in its build folder")
         registered = set()
         for file in build.rglob("CTestTestfile.cmake"):
             registered.update(re.findall(r'add_test\(\[=*\[?"?(\w+)', file.read_text(encoding="utf-8")))
-        if not registered:
-            self.skipTest("gloam is not in its build folder")
         for row in self.succeed_json("list", "--rows")["rows"]:
             for part in row["test"].split("; "):
                 self.assertIn(part.split(":")[0], registered, row)
