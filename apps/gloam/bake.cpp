@@ -106,8 +106,7 @@ int runBake(BakeChoice choice, Console& console) {
   Scene scene = loadSceneToDraw(choice.scene, console);
   const BakeEstimate estimate = estimateBake(scene, choice.options);
   if (choice.estimate_only) {
-    console.print(console.json ? jsonText(estimateJson(estimate))
-                               : estimateText(estimate));
+    console.print(console.json ? jsonText(estimateJson(estimate)) : estimateText(estimate));
     return kDone;
   }
   choice.options.checkpoint = choice.output + ".checkpoint";
