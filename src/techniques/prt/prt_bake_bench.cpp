@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -28,11 +29,11 @@ struct PointPackets {
 };
 
 std::vector<PointPackets> packetsOf(const BakePoints& points, const DirectionTables& tables,
-                                    std::size_t begin, std::size_t end) {
-  std::vector<PointPackets> packets(end - begin);
-  for (std::size_t p = begin; p < end; ++p) {
-    PointPackets& of_point = packets[p - begin];
-    of_point.origin = rayOrigin(points, p);
+                                    const BakeState& state, std::size_t block) {
+  std::vector<PointPackets> packets;
+  for (std::size_t p = state.blockBegin(block); p < state.blockEnd(block); ++p) {
+    PointPackets& of_point = packets.emplace_back();
+    of_point.origin = state.sites[p].origin;
     of_point.tiles.resize(std::size_t(tables.tiles));
     of_point.above.resize(std::size_t(tables.tiles));
     const int count = tilesAbove(tables, points.normals[p], of_point.tiles.data(), of_point.above.data());
@@ -85,9 +86,11 @@ PrtBakeBench measure(const BakePoints& points, const trace::Tracer& tracer, cons
   std::vector<std::vector<PointPackets>> packets(chosen);
   std::atomic<std::size_t> rays{0};
   secondsOf(chosen, [&](std::size_t i) {
-    const std::size_t b = blockAt(i);
-    packets[i] = packetsOf(points, tables, state.blockBegin(b), state.blockEnd(b));
-    rays += passes.shadowBlock(b, state);
+    passes.shadowBlock(blockAt(i), state);  // finds where the rays start
+    packets[i] = packetsOf(points, tables, state, blockAt(i));
+    for (const PointPackets& of_point : packets[i]) {
+      for (const std::uint16_t above : of_point.above) rays += std::size_t(std::popcount(above));
+    }
   });
   PrtBakeBench bench;
   bench.triangles = tracer.triangleCount();

@@ -71,7 +71,7 @@ std::size_t BakePasses::shadowBlock(std::size_t block, BakeState& state) const {
   std::size_t rays = 0;
   for (std::size_t i = 0; i < count; ++i) {
     RaySite& site = state.sites[begin + i];
-    site = {rayOrigin(points_, begin + i)};
+    site = {.origin = startAtVertex(begin + i)};
     rays += traceBlocked(tracer_, tables_, site.origin, points_.normals[begin + i], &blocked[i * tiles]);
   }
   for (std::size_t i = 0; i < count; i += kProjectedTogether) {

@@ -31,6 +31,9 @@ class BakePasses {
   void fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const;
 
  private:
+  glm::vec3 unobstructed(const glm::vec3& from, const glm::vec3& to) const;
+  glm::vec3 startAtVertex(std::size_t point) const;
+  glm::vec3 startOnFace(std::size_t point, std::uint32_t face, float share) const;
   Place placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const;
   bool fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known, std::size_t row,
                           std::vector<float>& values) const;

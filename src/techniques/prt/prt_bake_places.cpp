@@ -24,6 +24,26 @@ constexpr float kCrampedReach = 0.5f;
 
 }  // namespace
 
+// A sheet that lies closer above a surface than large triangles lift their rays must not be jumped over: half-way to it then.
+glm::vec3 BakePasses::unobstructed(const glm::vec3& from, const glm::vec3& to) const {
+  const float length = glm::length(to - from);
+  if (!(length > 0.0f)) return to;
+  // A wall that the surface touches is met at 0, or not, as rounding has it.
+  const trace::Hit hit = tracer_.closest({from, (to - from) / length, 1.0e-3f * length, length});
+  return hit ? glm::mix(from, to, 0.5f * hit.distance / length) : to;
+}
+
+glm::vec3 BakePasses::startAtVertex(std::size_t point) const {
+  const glm::vec3 off_surface = points_.normals[point] * surfaceOffset(points_, point);
+  return unobstructed(points_.positions[point] + off_surface, rayOrigin(points_, point));
+}
+
+glm::vec3 BakePasses::startOnFace(std::size_t point, std::uint32_t face, float share) const {
+  const glm::vec3 off_surface = points_.normals[point] * surfaceOffset(points_, point);
+  const glm::vec3 place = glm::mix(points_.positions[point], points_.centroid(face), share);
+  return unobstructed(place + off_surface, rayOriginOnFace(points_, point, face, share));
+}
+
 Place BakePasses::placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const {
   float total = 0.0f, near = 0.0f, backs = 0.0f, sheet_backs = 0.0f;
   for (const glm::vec3& direction : probes_) {
@@ -51,7 +71,7 @@ bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
   const auto faces = points_.facesOf(point);
   for (const float share : {0.05f, 0.2f, 0.5f, 0.8f}) {
     for (std::size_t f = 0; f < std::min(kMostFaces, faces.size()); ++f) {
-      const glm::vec3 origin = rayOriginOnFace(points_, point, faces[f], share);
+      const glm::vec3 origin = startOnFace(point, faces[f], share);
       if (placeOf(origin, normal, reach) != Place::kOpen) continue;
       site = {.origin = origin, .place = Place::kOpen};
       return true;

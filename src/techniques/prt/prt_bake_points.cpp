@@ -116,13 +116,7 @@ glm::vec3 raised(const BakePoints& points, std::size_t point, const glm::vec3& a
   const glm::vec3& p = points.positions[point];
   const glm::vec3& n = points.normals[point];
   const auto faces = points.facesOf(point);
-  float offset = 0.0f;
-  for (const std::uint32_t face : faces) {
-    const glm::uvec3& t = points.triangles[face];
-    offset = std::max(
-        offset, trace::surfaceOffset(points.positions[t.x], points.positions[t.y], points.positions[t.z]));
-  }
-  const float lift = std::max(offset, kLift * meshSpacing(points, point));
+  const float lift = std::max(surfaceOffset(points, point), kLift * meshSpacing(points, point));
   float height = lift;
   for (const std::uint32_t face : faces) {
     const glm::vec3 normal = faceNormal(points, face, n);
@@ -150,6 +144,16 @@ BakePoints makeBakePoints(const Scene& scene, const PosedScene& posed) {
   }
   collectFaces(points);
   return points;
+}
+
+float surfaceOffset(const BakePoints& points, std::size_t point) {
+  float offset = 0.0f;
+  for (const std::uint32_t face : points.facesOf(point)) {
+    const glm::uvec3& t = points.triangles[face];
+    offset = std::max(
+        offset, trace::surfaceOffset(points.positions[t.x], points.positions[t.y], points.positions[t.z]));
+  }
+  return offset;
 }
 
 float meshSpacing(const BakePoints& points, std::size_t point) {

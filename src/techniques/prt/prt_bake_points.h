@@ -58,6 +58,8 @@ glm::vec3 rayOrigin(const BakePoints& points, std::size_t point);
 /// look from when the vertex itself is inside something.
 glm::vec3 rayOriginOnFace(const BakePoints& points, std::size_t point, std::uint32_t face, float share);
 
+/// trace::surfaceOffset, the greatest of the faces around a point.
+float surfaceOffset(const BakePoints& points, std::size_t point);
 /// Mean way from a point to the centroids of the faces around it.
 float meshSpacing(const BakePoints& points, std::size_t point);
 

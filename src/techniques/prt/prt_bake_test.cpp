@@ -185,6 +185,15 @@ TEST(PrtBake, CreasesAreNeitherBlackNorBright) {
   }
 }
 
+// A sheet three millimetres above a floor of two large triangles, whose rays start higher than that.
+TEST(PrtBake, ThinGapsDoNotLeak) {
+  Scene scene = sceneOf(quadMesh({0, 0, 0}, {0, 0, 10}, {10, 0, 0}));
+  addMesh(scene, quadMesh({0, 0.003f, 0}, {0, 0, 11}, {11, 0, 0}));
+  scene.materials[0].double_sided = true;
+  const Scene baked = bakeTransfer(scene, shadowed());
+  for (std::size_t v = 0; v < 4; ++v) EXPECT_LT(directBrightness(baked.meshes[0], v), 0.001f);
+}
+
 TEST(PrtBake, WhatIsHiddenInsideDoesNotDarkenWhatIsSeen) {
   Scene scene = sceneOf(gridMesh(4.0f, 16));  // vertices half a metre apart, nine of them under the box
   Mesh box = boxMesh(glm::vec3(0.7f), false);
