@@ -10,6 +10,10 @@
 
 namespace gloam::frame {
 
+namespace {
+constexpr float kLargestHalf = 65504.0f;
+}
+
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window) {
   const sh::ShRgb bands = sh::truncated(light, order);
   switch (window) {
@@ -26,7 +30,7 @@ sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window) {
 
 namespace {
 
-/// What the sharpest lobe shows is windowed, then unfolded again, so that shaders apply any lobe's factors to it.
+/// What the sharpest lobe shows is windowed, then unfolded again, so that any lobe's factors can be applied to it.
 sh::ShRgb lightForGloss(const sh::ShRgb& light) {
   const sh::Zh sharpest = brdf::phongZonal(sh::kMaxOrder, kSharpestGloss);
   sh::ShRgb gloss = windowed(sh::convolve(light, sharpest), sh::kMaxOrder, Window::kAuto);
@@ -36,12 +40,43 @@ sh::ShRgb lightForGloss(const sh::ShRgb& light) {
   return gloss;
 }
 
+/// Direction of a place of the octahedral map; places beyond -1 … 1 continue on the other side of the edge.
+glm::vec3 octahedralDirection(glm::vec2 p) {
+  if (std::abs(p.x) > 1.0f) p = {std::copysign(2.0f, p.x) - p.x, -p.y};
+  if (std::abs(p.y) > 1.0f) p = {-p.x, std::copysign(2.0f, p.y) - p.y};
+  const float z = 1.0f - std::abs(p.x) - std::abs(p.y);
+  if (z >= 0.0f) return glm::normalize(glm::vec3(p, z));
+  const glm::vec2 folded(std::copysign(1.0f - std::abs(p.y), p.x), std::copysign(1.0f - std::abs(p.x), p.y));
+  return glm::normalize(glm::vec3(folded, z));
+}
+
+gpu::Image glossTable(gpu::Device& device, const sh::ShRgb& light) {
+  constexpr int kSide = kGlossSize + 2;
+  std::vector<float> texels;
+  for (int slice = 0; slice < kGlossSlices; ++slice) {
+    const float exponent = std::pow(kSharpestGloss, float(slice) / float(kGlossSlices - 1));
+    const sh::ShRgb seen = sh::convolve(light, brdf::phongZonal(sh::kMaxOrder, exponent));
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const glm::vec2 place = (glm::vec2(x, y) - 0.5f) / float(kGlossSize) * 2.0f - 1.0f;
+        const glm::vec3 radiance =
+            glm::clamp(sh::valueAt(seen, octahedralDirection(place)), 0.0f, kLargestHalf);
+        texels.insert(texels.end(), {radiance.r, radiance.g, radiance.b, 1.0f});
+      }
+    }
+  }
+  gpu::Image table(
+      device, "frame.gloss",
+      {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = kSide, .height = kSide, .depth = kGlossSlices});
+  table.uploadFloats(texels);
+  return table;
+}
+
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(gpu::Device& device, const Environment& environment)
     : sh_(projectEnvironment(environment, sh::kMaxOrder)) {
-  const sh::ShRgb gloss = lightForGloss(sh_);
-  for (int i = 0; i < kShLightCoefficients; ++i) row_.sh[i] = gloss[i];
+  gloss_ = glossTable(device, environment.empty() ? sh_ : lightForGloss(sh_));
   row_.cos_rotation = std::cos(environment.rotation_rad);
   row_.sin_rotation = std::sin(environment.rotation_rad);
   row_.intensity = environment.intensity;
@@ -55,7 +90,7 @@ EnvironmentLight::EnvironmentLight(gpu::Device& device, const Environment& envir
     texels.resize(environment.radiance.size() * 4);
     for (std::size_t i = 0; i < environment.radiance.size(); ++i) {
       for (int c = 0; c < 3; ++c)
-        texels[4 * i + std::size_t(c)] = std::min(environment.radiance[i][c], 65504.0f);
+        texels[4 * i + std::size_t(c)] = std::min(environment.radiance[i][c], kLargestHalf);
     }
   }
   map_ = gpu::Image(device, "frame.environment", desc);

@@ -26,15 +26,17 @@ class EnvironmentLight {
   bool empty() const { return row_.map_width == 0.0f; }
   /// Radiance, order 6, as projected: rotation and intensity are applied, no window.
   const sh::ShRgb& sh() const { return sh_; }
-  /// The same, damped as little as keeps what the sharpest lobe (kSharpestGloss) shows non-negative.
   const EnvironmentRow& row() const { return row_; }
   /// Equirectangular, half floats, with mips. Radiance beyond 65504 is clipped there (in sh() it is not).
   const gpu::Image& map() const { return map_; }
+  /// Light through unshadowed Phong lobes by mirror direction and exponent (frame/gloss.glsl reads it), from sh(), damped as
+  /// little as keeps what the sharpest lobe shows non-negative.
+  const gpu::Image& gloss() const { return gloss_; }
 
  private:
   sh::ShRgb sh_;
   EnvironmentRow row_{};
-  gpu::Image map_;
+  gpu::Image map_, gloss_;
 };
 
 }  // namespace gloam::frame

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Light becomes colour: emission + lamps + k_d / pi times irradiance + the Phong lobe under the environment's order-6 SH
-// (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed) + background.
+// (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed, tabulated) + background.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
+#include "frame/gloss.glsl"
 #include "frame/view.glsl"
 #include "math/brdf.glsl"
 
@@ -32,6 +33,7 @@ layout(set = 0, binding = 9) uniform sampler2D irradiance_direct;
 layout(set = 0, binding = 10) uniform sampler2D irradiance_indirect;
 layout(set = 0, binding = 11) uniform writeonly image2D direct;
 layout(set = 0, binding = 12) uniform writeonly image2D indirect;
+layout(set = 0, binding = 13) uniform sampler3D gloss;
 
 /// The environment's picture in a direction; u = atan2(z, x) / 2 pi + 1/2, v = asin(y) / pi + 1/2 with v up.
 vec3 backgroundRadiance(Ray ray, vec3 step_y) {
@@ -63,8 +65,7 @@ void main() {
       vec3 position = ray.origin + ray.direction * eyeDepth(view, d);
       vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
       vec3 mirror = mirrorDirection(normal, directionToEye(view, position));
-      float exponent = min(phongExponent(kd.a), kSharpestGloss);
-      first.rgb += texelFetch(specular, pixel, 0).rgb * max(shadePhong6(environment.row.sh, mirror, exponent), vec3(0.0));
+      first.rgb += texelFetch(specular, pixel, 0).rgb * environmentGloss(gloss, mirror, phongExponent(kd.a));
     }
   } else if (background) {
     first.rgb = backgroundRadiance(ray, view.depth_range > 0.0 ? vec3(0.0) : view.step_y);

@@ -101,21 +101,24 @@ struct ShadowView {
 };
 GLOAM_SHARED_SIZE(ShadowView, 256)
 
-GLOAM_SHARED_CONST int kShLightCoefficients = 36;
 /// The sharpest Phong lobe that order 6 shows without rings: its truncated kernel dips to -6 % of its peak (exponent 20:
 /// -11 %, a mirror: -17 %). Sharper materials are shown with this exponent.
 GLOAM_SHARED_CONST float kSharpestGloss = 10.0f;
 
-/// Light of the environment: order 6 for lobes up to kSharpestGloss, and how to look up its picture.
+/// What lobes show of the environment, tabulated: directions by an octahedral map of kGlossSize texels a side and one more
+/// around it, exponents from 1 to kSharpestGloss in equal steps of their logarithm.
+GLOAM_SHARED_CONST int kGlossSize = 32;
+GLOAM_SHARED_CONST int kGlossSlices = 8;
+
+/// How to look up the environment's picture.
 struct EnvironmentRow {
-  vec3 sh[36];
   float cos_rotation;
   float sin_rotation;
   float intensity;
   float map_width;  // 0: no environment
   float map_height;
 };
-GLOAM_SHARED_SIZE(EnvironmentRow, 452)
+GLOAM_SHARED_SIZE(EnvironmentRow, 20)
 
 GLOAM_SHARED_END
 #endif

@@ -8,16 +8,18 @@
 
 vec2 signOrOne(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
 
-uint packNormal(vec3 n) {
+/// A place of the square -1 … 1 for a unit vector, and back.
+vec2 octahedralPlace(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-  return packSnorm2x16(n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signOrOne(p));
+  return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signOrOne(p);
 }
-
-vec3 unpackNormal(uint word) {
-  vec2 p = unpackSnorm2x16(word);
+vec3 octahedralDirection(vec2 p) {
   float z = 1.0 - abs(p.x) - abs(p.y);
   return normalize(vec3(z >= 0.0 ? p : (1.0 - abs(p.yx)) * signOrOne(p), z));
 }
+
+uint packNormal(vec3 n) { return packSnorm2x16(octahedralPlace(n)); }
+vec3 unpackNormal(uint word) { return octahedralDirection(unpackSnorm2x16(word)); }
 
 /// frame.normals holds (shading, geometric); both face the eye's side of the surface.
 vec3 shadingNormal(uvec2 normals) { return unpackNormal(normals.x); }

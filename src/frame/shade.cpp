@@ -108,6 +108,7 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
       .read("frame_view", inputs.view)
       .read("environment", graph.uploadOne("frame.environment_row", inputs.environment.row()))
       .sample("environment_map", inputs.environment.map(), gpu::kLinearEquirect)
+      .sample("gloss", inputs.environment.gloss())
       .read("depth", inputs.gbuffer.depth)
       .read("normals", inputs.gbuffer.normals)
       .read("diffuse", inputs.gbuffer.diffuse)

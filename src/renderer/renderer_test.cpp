@@ -73,7 +73,7 @@ TEST(Renderer, ManyFramesTakeNoMoreMemory) {
   const Scene scene = loadScene("builtin:walker");
   renderer().setScene(scene);
   std::size_t memory = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const PosedScene posed = pose(scene, 0.08f * float(i));
     const RenderedFrame frame =
         renderer().render(posed, cameraOf(posed), {.width = 24, .height = 24, .layers = i % 2 == 0});

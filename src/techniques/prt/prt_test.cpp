@@ -7,6 +7,7 @@
 #include <gloam/bake.h>
 
 #include "frame/test_frame.h"
+#include "golden.h"
 #include "scene/environment.h"
 #include "scene/transforms.h"
 
@@ -232,6 +233,23 @@ TEST(PrtByPicture, BowlHasItsPartialSums) {
   const Picture picture = draw(baked);
   EXPECT_NEAR(meanInside(picture.direct, picture.ids), 0.25f, 0.0025f);
   EXPECT_NEAR(meanInside(picture.indirect, picture.ids), 0.25f * (0.25f + 0.0625f), 0.01f * 0.33f);
+}
+
+TEST(PrtByPicture, Golden) {
+  const Scene baked = bakeTransfer(loadScene("builtin:shadow?detail=0.4"),
+                                   {.order = 5, .bounces = 1, .directions = 1024, .bounce_directions = 512});
+  frame::TestFrame frame(baked);
+  Prt technique(gpu::testDevice());
+  const PosedScene posed = pose(baked, 0.0f);
+  const Settings values = settings();
+  const frame::FrameImages images =
+      frame.draw(posed, posed.cameras.at(0), {.width = 96, .height = 96, .supersample = 2},
+                 [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                   return technique.record(graph, inputs, values);
+                 });
+  Image image(96, 96, 4);
+  image.pixels = images.color.image().downloadFloats();
+  EXPECT_EQ(test::compareWithGolden(toneMapped(image, {}), "prt_shadow", {.max_difference = 3}), "");
 }
 
 }  // namespace
