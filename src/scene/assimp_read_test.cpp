@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/assimp_read.h"
 
-#include <chrono>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <thread>
 
 #include "scene/gltf_test_files.h"
 #include "scene/mesh_laws.h"
@@ -109,7 +108,7 @@ Scene crash(const std::filesystem::path&) {
   std::abort();
 }
 Scene runForever(const std::filesystem::path&) {
-  for (volatile int i = 0;; i = i + 1) {
+  for (std::atomic<int> i = 0;; ++i) {
   }
 }
 Scene takeAllMemory(const std::filesystem::path&) {
