@@ -44,40 +44,57 @@ glm::vec3 BakePasses::startOnFace(std::size_t point, std::uint32_t face, float s
   return unobstructed(place + off_surface, rayOriginOnFace(points_, point, face, share));
 }
 
+// Asks a quarter of the directions first: few places are in doubt after that.
 Place BakePasses::placeOf(const glm::vec3& origin, const glm::vec3& normal, float reach) const {
   float total = 0.0f, near = 0.0f, backs = 0.0f, sheet_backs = 0.0f;
-  for (const glm::vec3& direction : probes_) {
-    const float cosine = glm::dot(direction, normal);
-    if (cosine <= 0.0f) continue;
-    total += cosine;
-    const trace::Hit hit = tracer_.closest({origin, direction});
-    if (!hit) continue;
-    if (hit.distance < reach) near += cosine;
-    if (!isBack(hit.instance, hit.triangle, glm::dot(direction, hit.geometric_normal))) continue;
-    backs += cosine;
-    if (!surfaces_[std::size_t(hit.instance)].double_sided) sheet_backs += cosine;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    for (std::size_t i = quarter; i < probes_.size(); i += 4) {
+      const float cosine = glm::dot(probes_[i], normal);
+      if (cosine <= 0.0f) continue;
+      total += cosine;
+      const trace::Hit hit = tracer_.closest({origin, probes_[i]});
+      if (!hit) continue;
+      if (hit.distance < reach) near += cosine;
+      if (!isBack(hit.instance, hit.triangle, glm::dot(probes_[i], hit.geometric_normal))) continue;
+      backs += cosine;
+      if (!surfaces_[std::size_t(hit.instance)].double_sided) sheet_backs += cosine;
+    }
+    if (quarter > 0) continue;
+    if (sheet_backs == 0.0f && backs < 0.6f * total && near < 0.4f * total) return Place::kOpen;
+    if (sheet_backs > 0.9f * total) return Place::kBuried;
   }
   if (sheet_backs > kBuriedBySheets * total || backs > kBuriedByAll * total) return Place::kBuried;
   return near > kCramped * total ? Place::kCramped : Place::kOpen;
 }
 
-// Looks for an open place on the faces around a point that is not, the nearest first. Returns whether the site was moved.
+// Looks for an open place on the faces around a point that is not, the nearest first; where even the far ends of the faces
+// are hidden nothing nearer is tried. Returns whether the site was moved.
 bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
-  constexpr std::size_t kMostFaces = 12;
   const glm::vec3& normal = points_.normals[point];
   const float reach = kCrampedReach * meshSpacing(points_, point);
   site.place = placeOf(site.origin, normal, reach);
   if (site.place == Place::kOpen) return false;
-  const auto faces = points_.facesOf(point);
-  for (const float share : {0.05f, 0.2f, 0.5f, 0.8f}) {
-    for (std::size_t f = 0; f < std::min(kMostFaces, faces.size()); ++f) {
-      const glm::vec3 origin = startOnFace(point, faces[f], share);
+  auto faces = points_.facesOf(point);
+  faces = faces.first(std::min<std::size_t>(faces.size(), 8));
+  const auto findAt = [&](float share) {
+    for (const std::uint32_t face : faces) {
+      const glm::vec3 origin = startOnFace(point, face, share);
       if (placeOf(origin, normal, reach) != Place::kOpen) continue;
       site = {.origin = origin, .place = Place::kOpen};
       return true;
     }
+    return false;
+  };
+  constexpr float kFarthest = 0.8f;
+  const RaySite hidden = site;
+  if (!findAt(kFarthest)) return false;
+  const RaySite far = site;
+  site = hidden;
+  for (const float share : {0.05f, 0.2f, 0.5f}) {
+    if (findAt(share)) return true;
   }
-  return false;
+  site = far;
+  return true;
 }
 
 // A point that is inside something, or in a nook too small for its mesh, gets another place to look from.
