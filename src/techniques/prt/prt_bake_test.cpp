@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "math/sampling.h"
 #include "scene/transforms.h"
@@ -18,22 +17,6 @@ namespace gloam::prt {
 namespace {
 
 constexpr float kPi = sampling::kPi;
-
-BakeOptions shadowed(int order = 4, int directions = 4096) {
-  BakeOptions options;
-  options.kind = TransferKind::kShadowed;
-  options.order = order;
-  options.directions = directions;
-  return options;
-}
-
-BakeOptions interreflected(int bounces, int order = 3, int directions = 2048, int bounce_directions = 1024) {
-  BakeOptions options = shadowed(order, directions);
-  options.kind = TransferKind::kInterreflected;
-  options.bounces = bounces;
-  options.bounce_directions = bounce_directions;
-  return options;
-}
 
 std::size_t coefficients(const Transfer& t) {
   return std::size_t(t.order * t.order);
@@ -64,14 +47,6 @@ std::vector<bool> usedVertices(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertexCount());
   for (const std::uint32_t i : mesh.indices) used[i] = true;
   return used;
-}
-
-bool sameBits(const Scene& a, const Scene& b) {
-  for (std::size_t m = 0; m < a.meshes.size(); ++m) {
-    if (a.meshes[m].transfer->direct != b.meshes[m].transfer->direct) return false;
-    if (a.meshes[m].transfer->indirect != b.meshes[m].transfer->indirect) return false;
-  }
-  return a.meshes.size() == b.meshes.size();
 }
 
 // ---- Convex bodies: DS = DU = A_l y_l(n) -----------------------------------------------------------------------------
@@ -332,151 +307,6 @@ TEST(PrtBake, TexturesBleed) {
   scene.materials[1].metallic = 1.0f;  // metal has no diffuse albedo
   const Scene metal = bakeTransfer(scene, interreflected(1));
   for (const float value : metal.meshes[0].transfer->indirect) EXPECT_EQ(value, 0.0f);
-}
-
-// ---- Threads, interruption, checkpoints --------------------------------------------------------------------------------
-
-TEST(PrtBake, SameBitsForAnyNumberOfThreads) {
-  const Scene scene = crowdedScene();
-  BakeOptions options = interreflected(2, 5);
-  options.threads = 1;
-  const Scene one = bakeTransfer(scene, options);
-  for (const int threads : {2, 5}) {
-    options.threads = threads;
-    EXPECT_TRUE(sameBits(one, bakeTransfer(scene, options))) << threads;
-  }
-}
-
-struct CheckpointFile {
-  std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".ckp");
-  CheckpointFile() { std::filesystem::remove(path); }
-  ~CheckpointFile() { std::filesystem::remove(path); }
-};
-
-TEST(PrtBake, InterruptedAndResumedGivesTheSameBits) {
-  const Scene scene = crowdedScene();
-  const CheckpointFile file;
-  BakeOptions options = interreflected(2, 4);
-  const Scene whole = bakeTransfer(scene, options);
-  options.checkpoint = file.path;
-  int interruptions = 0;
-  double last_fraction = 0.0;
-  for (;; ++interruptions) {
-    ASSERT_LT(interruptions, 1000);
-    Progress progress;
-    int asked = 0;
-    progress.should_stop = [&] { return ++asked > 12; };
-    progress.update = [&](double fraction, const std::string&) {
-      EXPECT_GE(fraction, 0.0);
-      EXPECT_LE(fraction, 1.0);
-      last_fraction = fraction;
-    };
-    BakeReport report;
-    try {
-      const Scene resumed = bakeTransfer(scene, options, progress, &report);
-      EXPECT_TRUE(report.resumed);
-      EXPECT_TRUE(sameBits(whole, resumed));
-      break;
-    } catch (const Interrupted& e) {
-      EXPECT_NE(std::string(e.what()).find(file.path.string()), std::string::npos);
-      EXPECT_TRUE(std::filesystem::exists(file.path));
-    }
-  }
-  EXPECT_GT(interruptions, 5);
-  EXPECT_GT(last_fraction, 0.5);
-  EXPECT_FALSE(std::filesystem::exists(file.path));
-}
-
-void interruptSoon(const Scene& scene, const BakeOptions& options) {
-  Progress progress;
-  int asked = 0;
-  progress.should_stop = [&] { return ++asked > 5; };
-  EXPECT_THROW(bakeTransfer(scene, options, progress), Interrupted);
-}
-
-TEST(PrtBake, ForeignCheckpointsAreRefusedAndKept) {
-  const Scene scene = crowdedScene();
-  const CheckpointFile file;
-  BakeOptions options = shadowed();
-  options.checkpoint = file.path;
-  std::ofstream(file.path) << "a letter to someone";
-  EXPECT_THROW(bakeTransfer(scene, options), Error);
-  EXPECT_EQ(std::filesystem::file_size(file.path), 19u);
-  std::filesystem::remove(file.path);
-
-  interruptSoon(scene, options);
-  const auto size = std::filesystem::file_size(file.path);
-  BakeOptions other_order = options, other_count = options;
-  other_order.order = 5;
-  other_count.directions = 8192;
-  EXPECT_THROW(bakeTransfer(scene, other_order), Error);
-  EXPECT_THROW(bakeTransfer(scene, other_count), Error);
-  Scene moved = scene;
-  moved.meshes[0].positions[0].x += 0.001f;
-  EXPECT_THROW(bakeTransfer(moved, options), Error);
-  EXPECT_EQ(std::filesystem::file_size(file.path), size);
-
-  std::filesystem::resize_file(file.path, size / 2);  // cut off, as by a full disk
-  EXPECT_THROW(bakeTransfer(scene, options), Error);
-  options.checkpoint = "/nonexistent/folder/x.ckp";
-  Progress stop;
-  stop.should_stop = [] { return true; };
-  EXPECT_THROW(bakeTransfer(scene, options, stop), std::runtime_error);
-}
-
-TEST(PrtBake, DamagedCheckpointsAreRefused) {
-  const Scene scene = crowdedScene();
-  const CheckpointFile file;
-  BakeOptions options = shadowed();
-  options.checkpoint = file.path;
-  interruptSoon(scene, options);
-  std::fstream damaged(file.path, std::ios::binary | std::ios::in | std::ios::out);
-  damaged.seekp(std::streamoff(std::filesystem::file_size(file.path)) - 100);
-  damaged.put('\x55');
-  damaged.close();
-  EXPECT_THROW(bakeTransfer(scene, options), Error);
-}
-
-// ---- Bad input -------------------------------------------------------------------------------------------------------
-
-TEST(PrtBake, RefusesWhatCannotBeBaked) {
-  EXPECT_THROW(bakeTransfer({}, shadowed()), Error);
-  Scene no_triangles = sceneOf(Mesh{});
-  EXPECT_THROW(bakeTransfer(no_triangles, shadowed()), Error);
-  const Scene scene = sceneOf(sphereMesh(4, 8));
-  const auto refused = [&](auto change) {
-    BakeOptions options = interreflected(1);
-    change(options);
-    EXPECT_THROW(bakeTransfer(scene, options), Error);
-    EXPECT_THROW(estimateBake(scene, options), Error);
-  };
-  refused([](BakeOptions& o) { o.order = 2; });
-  refused([](BakeOptions& o) { o.order = 7; });
-  refused([](BakeOptions& o) { o.bounces = 0; });
-  refused([](BakeOptions& o) { o.bounces = 65; });
-  refused([](BakeOptions& o) { o.directions = 100; });
-  refused([](BakeOptions& o) { o.directions = 1 << 30; });
-  refused([](BakeOptions& o) { o.bounce_directions = -1; });
-  refused([](BakeOptions& o) { o.threads = -1; });
-}
-
-TEST(PrtBake, EstimateBoundsWhatTheBakeMakes) {
-  const Scene scene = crowdedScene();
-  const BakeEstimate estimate = estimateBake(scene, interreflected(1, 5));
-  const Scene baked = bakeTransfer(scene, interreflected(1, 5));
-  std::size_t bytes = 0, vertices = 0;
-  for (const Mesh& mesh : baked.meshes) {
-    bytes += (mesh.transfer->direct.size() + mesh.transfer->indirect.size()) * sizeof(float);
-    vertices += mesh.vertexCount();
-    EXPECT_EQ(mesh.transfer->order, 5);
-    EXPECT_EQ(mesh.transfer->bounces, 1);
-  }
-  EXPECT_EQ(estimate.vertices, vertices);
-  EXPECT_GE(estimate.memory_bytes, 2 * bytes);
-  EXPECT_GE(estimate.file_bytes, bytes);
-  EXPECT_GT(estimateBake(scene, interreflected(1, 6)).memory_bytes, estimate.memory_bytes);
 }
 
 }  // namespace

@@ -1,15 +1,32 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Small scenes for the tests of the bake; all materials white unless a test paints them.
+// Options and small scenes for the tests of the bake; all materials white unless a test paints them.
 #pragma once
 
-#include <gloam/scene.h>
+#include <gloam/bake.h>
 
 #include <cmath>
 #include <utility>
 
 namespace gloam::prt {
+
+inline BakeOptions shadowed(int order = 4, int directions = 4096) {
+  BakeOptions options;
+  options.kind = TransferKind::kShadowed;
+  options.order = order;
+  options.directions = directions;
+  return options;
+}
+
+inline BakeOptions interreflected(int bounces, int order = 3, int directions = 2048,
+                                  int bounce_directions = 1024) {
+  BakeOptions options = shadowed(order, directions);
+  options.kind = TransferKind::kInterreflected;
+  options.bounces = bounces;
+  options.bounce_directions = bounce_directions;
+  return options;
+}
 
 inline Mesh& addMesh(Scene& scene, Mesh mesh) {
   if (scene.materials.empty()) scene.materials.push_back({.metallic = 0.0f});
