@@ -30,7 +30,8 @@ sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window) {
 
 namespace {
 
-/// What the sharpest lobe shows is windowed, then unfolded again, so that any lobe's factors can be applied to it.
+/// What the sharpest lobe shows is windowed, then unfolded again, so that any lobe's factors can be applied
+/// to it.
 sh::ShRgb lightForGloss(const sh::ShRgb& light) {
   const sh::Zh sharpest = brdf::phongZonal(sh::kMaxOrder, kSharpestGloss);
   sh::ShRgb gloss = windowed(sh::convolve(light, sharpest), sh::kMaxOrder, Window::kAuto);

@@ -12,7 +12,8 @@ namespace gloam::frame {
 
 /// How a light's ringing is damped before it is used (SH-9).
 enum class Window : std::uint8_t { kNone, kHann, kLanczos, kAuto };
-/// The light's first `order` bands, windowed: Hann and Lanczos over width order, kAuto as little as keeps it non-negative.
+/// The light's first `order` bands, windowed: Hann and Lanczos over width order, kAuto as little as keeps it
+/// non-negative.
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window);
 
 /// Distant light on the device: its picture for the background and order-6 SH for the rest.
@@ -29,8 +30,8 @@ class EnvironmentLight {
   const EnvironmentRow& row() const { return row_; }
   /// Equirectangular, half floats, with mips. Radiance beyond 65504 is clipped there (in sh() it is not).
   const gpu::Image& map() const { return map_; }
-  /// Light through unshadowed Phong lobes by mirror direction and exponent (frame/gloss.glsl reads it), from sh(), damped as
-  /// little as keeps what the sharpest lobe shows non-negative.
+  /// Light through unshadowed Phong lobes by mirror direction and exponent (frame/gloss.glsl reads it), from
+  /// sh(), damped as little as keeps what the sharpest lobe shows non-negative.
   const gpu::Image& gloss() const { return gloss_; }
 
  private:

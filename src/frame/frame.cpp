@@ -57,7 +57,8 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
 std::size_t estimateBytes(const FrameOptions& options) {
   const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
   const std::size_t samples = pixels * std::size_t(options.supersample) * std::size_t(options.supersample);
-  // Samples: G-buffer, lamps, two irradiance images, direct and indirect. Pixels: colour, direct, indirect, layers.
+  // Samples: G-buffer, lamps, two irradiance images, direct and indirect. Pixels: colour, direct, indirect,
+  // layers.
   return samples * (kGBufferBytes + 5 * 8) + pixels * (3 * 8 + (options.layers ? 8 + 4 + 8 + 4 : 0));
 }
 

@@ -26,8 +26,8 @@ struct FrameMemory {
   std::optional<FrameView> view;
 };
 
-/// Adds all passes of a frame to the graph and says where the pictures will be. Throws Error where camera, lamps or poses
-/// make no sense.
+/// Adds all passes of a frame to the graph and says where the pictures will be. Throws Error where camera,
+/// lamps or poses make no sense.
 FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const EnvironmentLight& environment,
                         const PosedScene& posed, const PosedCamera& camera, const FrameOptions& options,
                         const LightingStep& technique, FrameMemory& memory, Warnings& warnings);

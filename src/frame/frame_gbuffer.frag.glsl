@@ -3,8 +3,9 @@
 //
 // The surface as all techniques see it: ids, normals, material. Textures are bound a draw.
 //
-// One rule for sides, the path tracer's too: every surface is seen from both sides. The geometric normal faces the eye; where
-// the interpolated normal lies on the other side of the surface, the shading normal (its normal map applied) is turned round.
+// One rule for sides, the path tracer's too: every surface is seen from both sides. The geometric normal
+// faces the eye; where the interpolated normal lies on the other side of the surface, the shading normal (its
+// normal map applied) is turned round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Vertices are pulled: gl_VertexIndex is the vertex within its mesh, gl_InstanceIndex a place in the order of drawing.
+// Vertices are pulled: gl_VertexIndex is the vertex within its mesh, gl_InstanceIndex a place in the order of
+// drawing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -37,9 +37,11 @@ struct Irradiance {
 /// What a technique hands on, never final colour. Terms of different light paths add up.
 struct Lighting {
   std::vector<Irradiance> irradiance;
-  /// True: the technique's terms contain the direct light of lamps, else frame/ shades it with its shadow maps.
+  /// True: the technique's terms contain the direct light of lamps, else frame/ shades it with its shadow
+  /// maps.
   bool has_local_direct = false;
-  /// True: the technique's terms contain the gloss of the environment, else frame/ adds the unshadowed Phong lobe.
+  /// True: the technique's terms contain the gloss of the environment, else frame/ adds the unshadowed Phong
+  /// lobe.
   bool has_environment_gloss = false;
 };
 

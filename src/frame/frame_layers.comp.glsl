@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What programs read besides light (docs/images.md): normals and albedo averaged over the covered samples of a pixel, depth
-// and object of the sample in its middle.
+// What programs read besides light (docs/images.md): normals and albedo averaged over the covered samples of
+// a pixel, depth and object of the sample in its middle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Direct light of one lamp, added to that of the others: E = intensity * rangeFactor / d^2 * coneFactor on a plane that faces the lamp, times the lobes, times
-// the shadow map. A lamp behind the geometric surface gives
+// Direct light of one lamp, added to that of the others: E = intensity * rangeFactor / d^2 * coneFactor on a
+// plane that faces the lamp, times the lobes, times the shadow map. A lamp behind the geometric surface gives
 // nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require

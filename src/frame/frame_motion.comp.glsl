@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Where the point that a pixel shows was in the last frame. Rigid things: through the two matrices; deformed ones: through
-// the same barycentric coordinates of the last pose.
+// Where the point that a pixel shows was in the last frame. Rigid things: through the two matrices; deformed
+// ones: through the same barycentric coordinates of the last pose.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

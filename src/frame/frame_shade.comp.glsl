@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Light becomes colour: emission + lamps + k_d / pi times irradiance + the Phong lobe under the environment's order-6 SH
-// (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed, tabulated) + background.
+// Light becomes colour: emission + lamps + k_d / pi times irradiance + the Phong lobe under the environment's
+// order-6 SH (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed, tabulated) + background.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

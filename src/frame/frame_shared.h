@@ -9,8 +9,8 @@ GLOAM_SHARED_BEGIN(frame)
 
 GLOAM_SHARED_CONST uint kAbsent = 0xffffffffu;
 
-/// The camera of this frame. Pixels count from the top left corner; centres are at + 1/2. Depth is reversed: 1 at the near
-/// plane, 0 infinitely far (perspective) or at the far plane (orthographic).
+/// The camera of this frame. Pixels count from the top left corner; centres are at + 1/2. Depth is reversed:
+/// 1 at the near plane, 0 infinitely far (perspective) or at the far plane (orthographic).
 struct FrameView {
   mat4 clip_from_world;
   mat4 previous_clip_from_world;
@@ -27,7 +27,8 @@ struct FrameView {
 };
 GLOAM_SHARED_SIZE(FrameView, 204)
 
-/// Geometry of one mesh. `first_uv` has one entry a texture slot: base colour, metallic-roughness, normal, emission.
+/// Geometry of one mesh. `first_uv` has one entry a texture slot: base colour, metallic-roughness, normal,
+/// emission.
 struct MeshRow {
   uint first_vertex;
   uint first_index;
@@ -85,8 +86,8 @@ struct LightRow {
 };
 GLOAM_SHARED_SIZE(LightRow, 256)
 
-/// One layer of the shadow maps. Depth is reversed as in FrameView. As long as the step at which any device binds parts of
-/// buffers, so that each lamp binds its own rows.
+/// One layer of the shadow maps. Depth is reversed as in FrameView. As long as the step at which any device
+/// binds parts of buffers, so that each lamp binds its own rows.
 struct ShadowView {
   mat4 clip_from_world;
   vec3 origin;
@@ -101,12 +102,12 @@ struct ShadowView {
 };
 GLOAM_SHARED_SIZE(ShadowView, 256)
 
-/// The sharpest Phong lobe that order 6 shows without rings: its truncated kernel dips to -6 % of its peak (exponent 20:
-/// -11 %, a mirror: -17 %). Sharper materials are shown with this exponent.
+/// The sharpest Phong lobe that order 6 shows without rings: its truncated kernel dips to -6 % of its peak
+/// (exponent 20: -11 %, a mirror: -17 %). Sharper materials are shown with this exponent.
 GLOAM_SHARED_CONST float kSharpestGloss = 10.0f;
 
-/// What lobes show of the environment, tabulated: directions by an octahedral map of kGlossSize texels a side and one more
-/// around it, exponents from 1 to kSharpestGloss in equal steps of their logarithm.
+/// What lobes show of the environment, tabulated: directions by an octahedral map of kGlossSize texels a side
+/// and one more around it, exponents from 1 to kSharpestGloss in equal steps of their logarithm.
 GLOAM_SHARED_CONST int kGlossSize = 32;
 GLOAM_SHARED_CONST int kGlossSlices = 8;
 

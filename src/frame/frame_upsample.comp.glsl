@@ -1,9 +1,10 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// From coarse receivers to all pixels along surfaces (row PX-8; Sloan, Govindaraju, Nowrouzezahrai, Snyder 2007): weights
-// bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised. Where none of the four fits (a thin thing
-// between coarse samples), the one of the 4 x 4 around whose normal and depth fit best is taken as it is.
+// From coarse receivers to all pixels along surfaces (row PX-8; Sloan, Govindaraju, Nowrouzezahrai, Snyder
+// 2007): weights bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised. Where none of the four fits
+// (a thin thing between coarse samples), the one of the 4 x 4 around whose normal and depth fit best is taken
+// as it is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

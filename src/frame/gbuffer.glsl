@@ -1,8 +1,9 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// How the G-buffer keeps its numbers. Normals: octahedral map, two 16-bit numbers in a word (Cigolle et al. 2014, "A survey
-// of efficient representations for independent unit vectors"); the error stays below 6e-5 rad.
+// How the G-buffer keeps its numbers. Normals: octahedral map, two 16-bit numbers in a word (Cigolle et al.
+// 2014, "A survey of efficient representations for independent unit vectors"); the error stays below 6e-5
+// rad.
 #ifndef GLOAM_FRAME_GBUFFER_GLSL
 #define GLOAM_FRAME_GBUFFER_GLSL
 

@@ -29,8 +29,8 @@ inline constexpr int kGBufferBytes = 4 + 8 + 8 + 8 + 8 + 8;
 GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::BufferRef view, int width,
                       int height, int supersample);
 
-/// Adds "frame.motion": how far each pixel's surface point has moved since the last pose and camera, in pixels, in RG of a
-/// half-float image (0 for background, which moves with the camera alone and is left out).
+/// Adds "frame.motion": how far each pixel's surface point has moved since the last pose and camera, in
+/// pixels, in RG of a half-float image (0 for background, which moves with the camera alone and is left out).
 gpu::ImageRef recordMotion(gpu::FrameGraph& graph, const GpuScene& scene, const GBuffer& gbuffer,
                            gpu::BufferRef view);
 

@@ -30,12 +30,12 @@ struct DrawRange {
 
 class GpuScene {
  public:
-  /// Uploads what does not change. Throws Error for a mesh without normals, and where data exceeds what a buffer of this
-  /// device holds.
+  /// Uploads what does not change. Throws Error for a mesh without normals, and where data exceeds what a
+  /// buffer of this device holds.
   GpuScene(gpu::Device& device, const Scene& scene);
 
-  /// Puts the instances where they are now; what they were in the last call is their previous pose. Adds passes that copy
-  /// deformed vertices. Throws Error where `posed` does not fit the scene.
+  /// Puts the instances where they are now; what they were in the last call is their previous pose. Adds
+  /// passes that copy deformed vertices. Throws Error where `posed` does not fit the scene.
   void pose(gpu::FrameGraph& graph, const PosedScene& posed);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
@@ -46,11 +46,12 @@ class GpuScene {
   bool deformed(std::size_t instance) const { return rows_[instance].first_vertex >= static_vertices_; }
   glm::vec3 boundsMin() const { return bounds_min_; }
   glm::vec3 boundsMax() const { return bounds_max_; }
-  /// Changes whenever the number, meshes or kinds of instances do: techniques then make anew what they hold an instance.
+  /// Another number for every set of instances, of any scene: techniques that see a new one make anew what
+  /// they hold an instance. Poses of the same instances keep it.
   std::uint64_t layoutRevision() const { return layout_revision_; }
 
-  // Bindings by these names: positions, normals, tangents, uvs, colors, indices, meshes, instances, draw_order; a draw's own
-  // are `material` (a uniform block) and the maps.
+  // Bindings by these names: positions, normals, tangents, uvs, colors, indices, meshes, instances,
+  // draw_order; a draw's own are `material` (a uniform block) and the maps.
   gpu::BufferRef positions() const { return positions_; }
   gpu::BufferRef indices() const { return indices_; }
   gpu::BufferRef instanceRows() const { return instance_rows_; }

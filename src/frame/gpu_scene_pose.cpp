@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "frame/gpu_scene.h"
@@ -77,7 +78,8 @@ void GpuScene::layOut(const PosedScene& posed) {
   for (const Instance& instance : posed.instances) layout.push_back({instance.mesh, instance.deformed()});
   if (layout == layout_ && layout_revision_ > 0) return;
   layout_ = std::move(layout);
-  ++layout_revision_;
+  static std::atomic<std::uint64_t> last_revision{0};
+  layout_revision_ = ++last_revision;
   has_previous_ = false;
   deformed_vertices_ = 0;
   for (const Kind& kind : layout_) {
@@ -85,7 +87,8 @@ void GpuScene::layOut(const PosedScene& posed) {
   }
   growVertices(static_vertices_ + 2 * std::size_t(deformed_vertices_));
 
-  // Rigid instances of one mesh are drawn together, opaque ones first; deformed ones each have vertices of their own.
+  // Rigid instances of one mesh are drawn together, opaque ones first; deformed ones each have vertices of
+  // their own.
   order_.resize(layout_.size());
   std::iota(order_.begin(), order_.end(), 0u);
   const auto key = [&](std::uint32_t i) {
@@ -120,6 +123,7 @@ void GpuScene::updateDraws(const PosedScene& posed) {
   for (std::uint32_t place = 0; place < order_.size(); ++place) {
     const Kind kind = layout_[order_[place]];
     const GpuMesh& mesh = meshes_[std::size_t(kind.mesh)];
+    if (mesh.index_count == 0) continue;
     Box box = worldBox(posed.instances[order_[place]], mesh);
     if (!draws_.empty() && !kind.deformed && draws_.back().mesh == std::uint32_t(kind.mesh)) {
       DrawRange& range = draws_.back();

@@ -66,7 +66,8 @@ struct Interval {
   bool overlaps(const Interval& other) const { return low < other.high && other.low < high; }
 };
 
-/// Half the length of an interval, rounded up in steps of a quarter octave, and its centre, rounded to texels.
+/// Half the length of an interval, rounded up in steps of a quarter octave, and its centre, rounded to
+/// texels.
 std::pair<float, float> steadied(const Interval& interval, int map_size) {
   const float raw = std::max(0.5f * (interval.high - interval.low), 1e-6f) * marginFactor(map_size);
   const float half = std::exp2(std::ceil(4.0f * std::log2(raw * (1.0f + 1.0f / float(map_size)))) / 4.0f);

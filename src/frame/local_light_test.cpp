@@ -117,7 +117,8 @@ TEST(LocalLight, ShadowOfABoxEndsAtTheRightPixel) {
   }
 }
 
-// A convex body never shadows itself: where its normals face the lamp, all light arrives, however coarse the map.
+// A convex body never shadows itself: where its normals face the lamp, all light arrives, however coarse the
+// map.
 TEST(LocalLight, NoAcneOnASphere) {
   for (const Light::Type type : {Light::Type::kDirectional, Light::Type::kPoint}) {
     SceneBuilder builder("sphere");

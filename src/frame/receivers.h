@@ -15,8 +15,8 @@ struct ReceiverLevel {
   gpu::ImageRef normal_depth;  ///< shading normal, float; w: depth along the camera's axis, metres
 };
 
-/// Receivers at full, 1/2, 1/4 and 1/8 of the rendering's size, made from the G-buffer when first asked for. A block is
-/// represented by the pixel in its middle, or, where that is background, by its first covered one.
+/// Receivers at full, 1/2, 1/4 and 1/8 of the rendering's size, made from the G-buffer when first asked for.
+/// A block is represented by the pixel in its middle, or, where that is background, by its first covered one.
 class Receivers {
  public:
   Receivers(gpu::FrameGraph& graph, const GBuffer& gbuffer, gpu::BufferRef view)

@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// An RGB function in spherical harmonics at a direction, for an order that is a specialisation constant: what is beyond it
-// costs nothing.
+// An RGB function in spherical harmonics at a direction, for an order that is a specialisation constant: what
+// is beyond it costs nothing.
 #ifndef GLOAM_FRAME_SH_VALUE_GLSL
 #define GLOAM_FRAME_SH_VALUE_GLSL
 #include "math/sh.glsl"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame/shade.h"
 
+#include <fmt/format.h>
+
 #include "shaders/frame_shaders.h"
 
 namespace gloam::frame {
@@ -74,13 +76,13 @@ gpu::ImageRef gatherIrradiance(gpu::FrameGraph& graph, const FrameInputs& inputs
   int count = 0;
   for (const Irradiance& term : lighting.irradiance) {
     if (term.path != path) continue;
-    const std::string suffix = "_" + std::to_string(count++);
+    const std::string suffix = fmt::format("_{}", count++);
     const gpu::ImageRef full = upsample(graph, inputs, term, name + suffix);
     if (!sum) {
       sum = full;
       continue;
     }
-    const auto both = imageLike(graph, name + "_sum" + suffix, inputs.gbuffer);
+    const auto both = imageLike(graph, fmt::format("{}_sum{}", name, suffix), inputs.gbuffer);
     graph.compute("frame.add", frame_add_spv)
         .read("a", sum)
         .read("b", full)
@@ -100,7 +102,7 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
   const Shaded shaded{imageLike(graph, "frame.direct" + suffix, inputs.gbuffer),
                       imageLike(graph, "frame.indirect" + suffix, inputs.gbuffer)};
   const gpu::ImageRef none = black(graph);
-  const auto orBlack = [&](gpu::ImageRef image) { return image ? image : none; };
+  const auto or_black = [&](gpu::ImageRef image) { return image ? image : none; };
   graph.compute("frame.shade", frame_shade_spv)
       .specialize("environment_gloss", !lighting.has_environment_gloss && !inputs.environment.empty())
       .specialize("background", background && !inputs.environment.empty())
@@ -114,9 +116,9 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
       .read("diffuse", inputs.gbuffer.diffuse)
       .read("specular", inputs.gbuffer.specular)
       .read("emission", inputs.gbuffer.emission)
-      .read("local_light", orBlack(local_light))
-      .read("irradiance_direct", orBlack(direct))
-      .read("irradiance_indirect", orBlack(indirect))
+      .read("local_light", or_black(local_light))
+      .read("irradiance_direct", or_black(direct))
+      .read("irradiance_indirect", or_black(indirect))
       .write("direct", shaded.direct)
       .write("indirect", shaded.indirect)
       .dispatchOver(shaded.direct);

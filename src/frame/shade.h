@@ -17,12 +17,13 @@ struct Shaded {
 /// Radiance of the lamps through both lobes and their shadow maps: "frame.local_light". Empty without lamps.
 gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs);
 
-/// Makes of the terms of one path a single irradiance at full size: upsamples what is coarser ("frame.upsample") and sums
-/// ("frame.add"). Empty where there is no term.
+/// Makes of the terms of one path a single irradiance at full size: upsamples what is coarser
+/// ("frame.upsample") and sums ("frame.add"). Empty where there is no term.
 gpu::ImageRef gatherIrradiance(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                                Path path);
 
-/// Puts emission, lamps, k_d / pi times irradiance, the environment's gloss and the background together: "frame.shade".
+/// Puts emission, lamps, k_d / pi times irradiance, the environment's gloss and the background together:
+/// "frame.shade".
 Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                    gpu::ImageRef local_light, bool background);
 
@@ -34,8 +35,9 @@ struct FrameImages {
   gpu::ImageRef depth, albedo, object;
 };
 
-/// Averages supersample x supersample pixels in linear radiance: "frame.resolve"; with `layers` also "frame.layers":
-/// mean normal (unit) and albedo of the covered ones, depth and object of the one in the middle.
+/// Averages supersample x supersample pixels in linear radiance: "frame.resolve"; with `layers` also
+/// "frame.layers": mean normal (unit) and albedo of the covered ones, depth and object of the one in the
+/// middle.
 FrameImages recordResolve(gpu::FrameGraph& graph, const FrameInputs& inputs, const Shaded& shaded,
                           bool layers);
 

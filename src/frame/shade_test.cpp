@@ -90,7 +90,8 @@ TEST(Receivers, KnowTheirSizes) {
             std::string::npos);
 }
 
-// A constant stays one; what is linear over a plane stays linear; no light crosses from one object to another.
+// A constant stays one; what is linear over a plane stays linear; no light crosses from one object to
+// another.
 TEST(Upsample, FollowsSurfaces) {
   const Scene scene = spheresScene();
   for (const int divisor : {2, 4, 8}) {

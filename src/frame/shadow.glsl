@@ -1,18 +1,19 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Is a point in the light of a lamp? Percentage-closer filtering (Reeves, Salesin, Cook 1987) over 4 x 4 texels, a box of 3
-// texels smoothed by the fraction of a texel.
+// Is a point in the light of a lamp? Percentage-closer filtering (Reeves, Salesin, Cook 1987) over 4 x 4
+// texels, a box of 3 texels smoothed by the fraction of a texel.
 //
-// Every tap is compared with the depth that the receiver's own plane has at the middle of that texel, which needs no bias on
-// flat surfaces; in a perspective map the inverse of the depth is linear over the map, in an orthographic one the depth.
-// What remains (curved surfaces, rounding) is left to a step of one texel along the normal: contact shadows begin within
-// a texel of the contact.
+// Every tap is compared with the depth that the receiver's own plane has at the middle of that texel, which
+// needs no bias on flat surfaces; in a perspective map the inverse of the depth is linear over the map, in an
+// orthographic one the depth. What remains (curved surfaces, rounding) is left to a step of one texel along
+// the normal: contact shadows begin within a texel of the contact.
 #ifndef GLOAM_FRAME_SHADOW_GLSL
 #define GLOAM_FRAME_SHADOW_GLSL
 #include "frame/frame_shared.h"
 
-/// Steepest plane that taps follow, in depth over width; beyond, grazing light would see through what stands before it.
+/// Steepest plane that taps follow, in depth over width; beyond, grazing light would see through what stands
+/// before it.
 const float kSteepestPlane = 16.0;
 
 /// In which of a lamp's six maps a direction lies: +X -X +Y -Y +Z -Z.
@@ -23,8 +24,8 @@ uint cubeFace(vec3 direction) {
   return direction.z >= 0.0 ? 4u : 5u;
 }
 
-/// Depth of the receiver's plane over the map, as the map stores it: dot(slope, (x, y, 1)) at place (x, y) of the map
-/// (tangents, or metres where orthographic), kept between low and high.
+/// Depth of the receiver's plane over the map, as the map stores it: dot(slope, (x, y, 1)) at place (x, y) of
+/// the map (tangents, or metres where orthographic), kept between low and high.
 struct PlaneDepth {
   vec3 slope;
   float low, high;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame/shadow_maps.h"
 
+#include <algorithm>
+#include <array>
+
 #include "shaders/frame_shaders.h"
 
 namespace gloam::frame {
@@ -16,12 +19,9 @@ bool isOutside(const DrawRange& range, const glm::mat4& clip_from_world) {
                       corner & 2 ? range.bounds_max.y : range.bounds_min.y,
                       corner & 4 ? range.bounds_max.z : range.bounds_min.z);
     const glm::vec4 clip = clip_from_world * glm::vec4(p, 1.0f);
-    for (int axis = 0; axis < 2; ++axis) {
-      outside[std::size_t(2 * axis)] += clip[axis] > clip.w;
-      outside[std::size_t(2 * axis + 1)] += clip[axis] < -clip.w;
-    }
-    outside[4] += clip.z > clip.w;
-    outside[5] += clip.z < 0.0f;
+    const std::array<bool, 6> sides = {clip.x > clip.w, clip.x<-clip.w, clip.y> clip.w,
+                                       clip.y<-clip.w, clip.z> clip.w, clip.z < 0.0f};
+    for (std::size_t side = 0; side < sides.size(); ++side) outside[side] += sides[side];
   }
   return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
 }

@@ -26,7 +26,8 @@ struct ShadowMaps {
   }
 };
 
-/// Draws the scene into every map: passes "frame.shadow_maps", and "frame.shadow_maps_masked" where materials have holes.
+/// Draws the scene into every map: passes "frame.shadow_maps", and "frame.shadow_maps_masked" where materials
+/// have holes.
 ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan);
 
 }  // namespace gloam::frame

@@ -15,7 +15,8 @@ namespace gloam::frame {
 inline constexpr int kTextureSlots = 4;
 std::array<const TextureSlot*, kTextureSlots> textureSlots(const Material& material);
 
-/// The scene's textures on the device, each with mips; once as sRGB and once as linear where both are asked for.
+/// The scene's textures on the device, each with mips; once as sRGB and once as linear where both are asked
+/// for.
 class Textures {
  public:
   Textures(gpu::Device& device, const Scene& scene);

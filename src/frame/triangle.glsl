@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// A triangle of the scene from the ids of the G-buffer, and where on it a ray lands. GLOAM_TRIANGLE_SET, the descriptor set
-// of the buffers, is defined by the includer; GpuScene::bindTriangles binds them.
+// A triangle of the scene from the ids of the G-buffer, and where on it a ray lands. GLOAM_TRIANGLE_SET, the
+// descriptor set of the buffers, is defined by the includer; GpuScene::bindTriangles binds them.
 #ifndef GLOAM_FRAME_TRIANGLE_GLSL
 #define GLOAM_FRAME_TRIANGLE_GLSL
 #include "frame/frame_shared.h"
@@ -27,8 +27,8 @@ mat3 triangleCorners(uint instance, uvec3 vertices) {
               world_from_object * vec4(positions.at[first + vertices.z], 1.0));
 }
 
-/// Barycentric coordinates of the point in which a ray meets the plane of a triangle, clamped to the triangle: pixel centres
-/// of the G-buffer lie inside up to rounding. Moeller and Trumbore 1997.
+/// Barycentric coordinates of the point in which a ray meets the plane of a triangle, clamped to the
+/// triangle: pixel centres of the G-buffer lie inside up to rounding. Moeller and Trumbore 1997.
 vec3 barycentrics(mat3 corners, vec3 origin, vec3 direction) {
   vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
   vec3 s = origin - corners[0];

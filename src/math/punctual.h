@@ -1,11 +1,11 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// How the light of a lamp falls off, as KHR_lights_punctual defines it. The reference and all techniques use this; shaders
-// have the same functions in math/punctual.glsl.
+// How the light of a lamp falls off, as KHR_lights_punctual defines it. The reference and all techniques use
+// this; shaders have the same functions in math/punctual.glsl.
 //
-// Irradiance on a plane that faces the lamp at distance d: intensity * rangeFactor / d^2 * coneFactor. Directional lights:
-// the intensity itself.
+// Irradiance on a plane that faces the lamp at distance d: intensity * rangeFactor / d^2 * coneFactor.
+// Directional lights: the intensity itself.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,9 @@ namespace gloam {
 /// The layers that docs/images.md names. Waits for the device.
 LayeredImage readLayers(const frame::FrameImages& images);
 
-/// Any image of the frame as R, G, B of the picture's size (nearest pixel), for eyes: numbers as they are, one channel
-/// grey, integers as colours of their own, depth buffers as they are. Throws Error that lists the names.
+/// Any image of the frame as R, G, B of the picture's size (nearest pixel), for eyes: numbers as they are,
+/// one channel grey, integers as colours of their own, depth buffers as they are. Throws Error that lists the
+/// names.
 Image readShown(const gpu::FrameGraph& graph, const std::string& name, int width, int height);
 
 /// Names that readShown takes.

@@ -195,6 +195,10 @@ TEST(Renderer, SmallestPictureAndEmptyScene) {
                   .pixels[0],
               1.0f, 0.002f);
   Scene empty;
+  empty.materials.emplace_back();
+  empty.meshes.emplace_back();  // no vertices, no triangles
+  empty.nodes.push_back({.meshes = {0}});
+  empty.roots = {0};
   empty.environment = loadEnvironment("sky:uniform");
   EXPECT_NEAR(draw(empty, {.width = 8, .height = 8}).layers.image("", {"R"}, "frame").pixels[0], 1.0f,
               0.002f);

@@ -19,12 +19,13 @@
 
 namespace gloam {
 
-/// A way of lighting a frame. One object lives as long as its renderer and keeps what it needs from frame to frame.
+/// A way of lighting a frame. One object lives as long as its renderer and keeps what it needs from frame to
+/// frame.
 class Technique {
  public:
   virtual ~Technique() = default;
-  /// Adds this technique's passes; returns irradiance or fields, direct and indirect apart. Throws Error where it cannot
-  /// light this scene. `settings` holds its options.
+  /// Adds this technique's passes; returns irradiance, direct and indirect apart (frame/frame_inputs.h). Throws
+  /// Error where it cannot light this scene. `settings` holds its options.
   virtual frame::Lighting record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                  const Settings& settings) = 0;
 };

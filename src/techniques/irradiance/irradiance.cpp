@@ -1,9 +1,9 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Ramamoorthi and Hanrahan 2001, "An efficient representation for irradiance environment maps": E(n) = sum of A_l L_lm
-// y_lm(n), rows SH-2, SH-5, SH-9. Differs from the paper: any order from 2 to 6 (3 is the paper's), a window against
-// ringing, and normals from the G-buffer, so that normal maps show.
+// Ramamoorthi and Hanrahan 2001, "An efficient representation for irradiance environment maps": E(n) = sum of
+// A_l L_lm y_lm(n), rows SH-2, SH-5, SH-9. Differs from the paper: any order from 2 to 6 (3 is the paper's),
+// a window against ringing, and normals from the G-buffer, so that normal maps show.
 #include "techniques/irradiance/irradiance.h"
 
 #include "shaders/irradiance_shaders.h"
@@ -13,7 +13,8 @@ namespace gloam::irradiance {
 
 namespace {
 
-/// Window "auto" damps the irradiance, not the light, as little as keeps it non-negative: the cosine itself is a window.
+/// Window "auto" damps the irradiance, not the light, as little as keeps it non-negative: the cosine itself
+/// is a window.
 sh::ShRgb irradianceOf(const sh::ShRgb& light, int order, const std::string& window) {
   using frame::Window;
   const sh::Zh cosine = sh::clampedCosine(order);

@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Unshadowed irradiance of distant light from a few SH coefficients (Ramamoorthi, Hanrahan 2001). README.md has the rest.
+// Unshadowed irradiance of distant light from a few SH coefficients (Ramamoorthi, Hanrahan 2001). README.md
+// has the rest.
 #pragma once
 
 #include "techniques/technique.h"

@@ -67,7 +67,8 @@ TEST(Irradiance, EveryOrderIsTheSumOverItsBands) {
   }
 }
 
-// A sun alone: order 3 undershoots behind the body; with "auto" the irradiance touches 0 and is not cut off there.
+// A sun alone: order 3 undershoots behind the body; with "auto" the irradiance touches 0 and is not cut off
+// there.
 TEST(Irradiance, AutoWindowKeepsLightNonNegative) {
   const sh::ShRgb sun = sh::colored(sh::directionalLight(6, {0, 0, 1}), glm::vec3(1.0f));
   const sh::ShRgb plain = sh::convolve(sh::truncated(sun, 3), sh::clampedCosine(3));

@@ -1,10 +1,10 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Sloan, Kautz, Snyder 2002, "Precomputed radiance transfer for real-time rendering in dynamic, low-frequency lighting
-// environments", sections 3 and 4: E_p = M_p . L, the light rotated into the object's axes. Differs from the paper: transfer
-// is stored without the receiver's albedo, the direct and the interreflected part apart, and vertices' light is interpolated
-// by a compute pass over the G-buffer. Rows PRT-1, PRT-4.
+// Sloan, Kautz, Snyder 2002, "Precomputed radiance transfer for real-time rendering in dynamic, low-frequency
+// lighting environments", sections 3 and 4: E_p = M_p . L, the light rotated into the object's axes. Differs
+// from the paper: transfer is stored without the receiver's albedo, the direct and the interreflected part
+// apart, and vertices' light is interpolated by a compute pass over the G-buffer. Rows PRT-1, PRT-4.
 #include "techniques/prt/prt.h"
 
 #include <fmt/format.h>

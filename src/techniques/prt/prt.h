@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Run time of diffuse precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-4). README.md has the rest;
-// baking is prt_bake.h.
+// Run time of diffuse precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-4). README.md has
+// the rest; baking is prt_bake.h.
 #pragma once
 
 #include <optional>

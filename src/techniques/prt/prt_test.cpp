@@ -40,7 +40,8 @@ Picture draw(const Scene& scene, const Settings& settings = prt::settings(), std
           images.normal.image().downloadFloats(), frame.ids(), frame.warnings};
 }
 
-/// Unshadowed transfer of every vertex, in closed form; the interreflected part is a third, half and all of it.
+/// Unshadowed transfer of every vertex, in closed form; the interreflected part is a third, half and all of
+/// it.
 void addTransfer(Scene& scene, int order, bool indirect = false) {
   for (Mesh& mesh : scene.meshes) {
     auto transfer = std::make_shared<Transfer>();
@@ -164,6 +165,29 @@ TEST(Prt, ChunksGiveTheSamePicture) {
   EXPECT_EQ(whole.indirect, cut.indirect);
 }
 
+// One technique object serves one scene after another.
+TEST(Prt, ForgetsTheSceneBefore) {
+  Prt technique(gpu::testDevice());
+  const Settings values = settings();
+  std::vector<std::vector<float>> pictures;
+  for (const float tilt : {0.0f, 1.0f, 0.0f}) {
+    Scene scene = skyScene();
+    for (Mesh& mesh : scene.meshes) {
+      for (glm::vec3& n : mesh.normals) n = glm::normalize(n + glm::vec3(0, tilt, 0));
+    }
+    addTransfer(scene, 4);
+    frame::TestFrame frame(scene);
+    const PosedScene posed = pose(scene, 0.0f);
+    const auto images = frame.draw(posed, posed.cameras.at(0), {.width = kSize, .height = kSize},
+                                   [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                                     return technique.record(graph, inputs, values);
+                                   });
+    pictures.push_back(images.direct.image().downloadFloats());
+  }
+  EXPECT_NE(pictures[0], pictures[1]);
+  EXPECT_EQ(pictures[0], pictures[2]);
+}
+
 TEST(Prt, WhatIsNotBakedIsLitWithoutShadows) {
   Scene scene = skyScene();
   addTransfer(scene, 5);
@@ -224,8 +248,8 @@ TEST(PrtByPicture, ConvexWhiteBodyInTheWhiteFurnaceIsOne) {
   EXPECT_LT(worst, 0.002f);
 }
 
-// An open bowl of albedo 1/2 that covers half its sphere: direct rho (1 - a) = 1/4, with all bounces rho (1 - a) / (1 - rho a)
-// = 1/3; bounce b adds rho (1 - a) (rho a)^b.
+// An open bowl of albedo 1/2 that covers half its sphere: direct rho (1 - a) = 1/4, with all bounces rho (1 -
+// a) / (1 - rho a) = 1/3; bounce b adds rho (1 - a) (rho a)^b.
 TEST(PrtByPicture, BowlHasItsPartialSums) {
   const Scene bowl = loadScene("builtin:bowl?coverage=0.5&albedo=0.5&detail=0.5");
   const Scene baked =

@@ -17,8 +17,8 @@ std::uint32_t blockCount(std::uint32_t vertices) {
   return (vertices + kBlockVertices - 1) / kBlockVertices;
 }
 
-/// One vertex after another becomes blocks of kBlockVertices, coefficient after coefficient; the last block is padded with 0.
-/// `kept` of `stored` values a vertex are taken.
+/// One vertex after another becomes blocks of kBlockVertices, coefficient after coefficient; the last block
+/// is padded with 0. `kept` of `stored` values a vertex are taken.
 void appendBlocks(std::vector<float>& to, const std::vector<float>& from, std::uint32_t first_vertex,
                   std::uint32_t vertices, std::size_t stored, std::size_t kept) {
   const std::size_t start = to.size();

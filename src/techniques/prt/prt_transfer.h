@@ -17,8 +17,8 @@ struct TransferOptions {
 };
 
 /// Transfer of some meshes: as many as fit into one storage buffer. Block b, coefficient i, vertex v stand at
-/// (b * coefficients + i) * kBlockVertices + v, for `indirect` with three coefficients (R, G, B) where `direct` has one.
-/// Halves: two vertices a word.
+/// (b * coefficients + i) * kBlockVertices + v, for `indirect` with three coefficients (R, G, B) where
+/// `direct` has one. Halves: two vertices a word.
 struct TransferChunk {
   gpu::Buffer direct, indirect;  ///< `indirect` is empty where no mesh has bounces
   gpu::Buffer blocks;            ///< VertexBlock, one a work group
@@ -27,8 +27,8 @@ struct TransferChunk {
 
 class TransferBuffers {
  public:
-  /// Of all rigid instances whose meshes carry transfer. Throws Error where there is none, where a mesh's transfer has the
-  /// wrong size, or where buffers exceed the device's.
+  /// Of all rigid instances whose meshes carry transfer. Throws Error where there is none, where a mesh's
+  /// transfer has the wrong size, or where buffers exceed the device's.
   TransferBuffers(gpu::Device& device, const frame::GpuScene& scene, const TransferOptions& options);
 
   const TransferOptions& options() const { return options_; }
