@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstring>
 #include <deque>
+#include <utility>
 
 #include "gpu/device_state.h"
 #include "gpu/format.h"
@@ -81,6 +82,10 @@ struct FrameGraph::State {
   void record(VkCommandBuffer commands, const Pass& pass, const std::vector<Touch>& touches,
               const std::vector<bool>& loads);
   void runHost(const HostPass& pass);
+  /// Software drivers rasterise later than their timestamps say: there each pass is waited for and timed by the
+  /// host's clock.
+  bool timesByWaiting() const { return timed && device.info().software; }
+  void runTimed(VkCommandBuffer commands, const std::string& name, VkSemaphore wait);
   void readTimes();
 };
 
@@ -342,7 +347,7 @@ void FrameGraph::State::prepareQueries(VkCommandBuffer commands) {
   timings.clear();
   times.clear();
   times_are_read = !timed;
-  if (!timed || device.limits().timestamp_ns == 0.0) return;
+  if (!timed || timesByWaiting() || device.limits().timestamp_ns == 0.0) return;
   const auto needed = static_cast<std::uint32_t>(2 * passes.size());
   if (needed == 0) return;
   if (needed > slot().query_capacity) {
@@ -367,7 +372,7 @@ void FrameGraph::State::record(VkCommandBuffer commands, const Pass& pass, const
     label.pLabelName = name.c_str();
     instance.beginLabel(commands, &label);
   }
-  const bool stamped = timed && device.limits().timestamp_ns != 0.0;
+  const bool stamped = timed && !timesByWaiting() && device.limits().timestamp_ns != 0.0;
   const auto query = static_cast<std::uint32_t>(2 * timings.size());
   const auto stamp = [&](std::uint32_t index) {
     if (!stamped) return;
@@ -387,8 +392,17 @@ void FrameGraph::State::record(VkCommandBuffer commands, const Pass& pass, const
   }
   if (const auto* transfer = std::get_if<TransferPass>(&pass)) transfer->commands(commands);
   stamp(query + 1);
-  if (timed) timings.push_back({name, false, 0.0, query});
+  if (timed && !timesByWaiting()) timings.push_back({name, false, 0.0, query});
   if (instance.endLabel != nullptr) instance.endLabel(commands);
+}
+
+/// Submits one recorded pass alone and waits for it.
+void FrameGraph::State::runTimed(VkCommandBuffer commands, const std::string& name, VkSemaphore wait) {
+  const auto start = std::chrono::steady_clock::now();
+  slot().value = device.state().submit(commands, wait, VK_NULL_HANDLE);
+  device.state().waitFor(slot().value);
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  timings.push_back({name, true, taken.count(), 0});
 }
 
 void FrameGraph::State::runHost(const HostPass& pass) {
@@ -413,6 +427,9 @@ void FrameGraph::execute(const SubmitInfo& submit) {
     const auto* host = std::get_if<HostPass>(&state.passes[i]);
     if (host == nullptr) {
       state.record(commands, state.passes[i], touches[i], loads[i]);
+      if (!state.timesByWaiting()) continue;
+      state.runTimed(commands, nameOf(state.passes[i]), std::exchange(wait, VK_NULL_HANDLE));
+      commands = state.open();
       continue;
     }
     state.slot().value = state.device.state().submit(commands, wait, VK_NULL_HANDLE);

@@ -111,7 +111,8 @@ class FrameGraph {
   void execute(const SubmitInfo& submit = {});
   /// Until the last executed frame is done.
   void wait();
-  /// Timers cost a little: off at first.
+  /// Timers cost a little: off at first. On software drivers, whose timestamps do not wait for the rasteriser,
+  /// every pass is then submitted alone and timed by the host's clock.
   void setTimed(bool timed);
   /// Of the last executed frame (waits for it), in recorded order; passes of one name are summed. Empty if
   /// not timed.
