@@ -14,9 +14,17 @@ namespace {
 
 /// The first `channels` of an image on the device.
 Image download(const gpu::ImageRef& ref, int channels) {
-  const std::vector<float> values = ref.image().downloadFloats(ref.range().mip, ref.range().layer);
+  std::vector<float> values = ref.image().downloadFloats(ref.range().mip, ref.range().layer);
   const int stored = gpu::channelCount(ref.format());
-  Image image(ref.width(), ref.height(), channels);
+  Image image;
+  image.width = ref.width();
+  image.height = ref.height();
+  image.channels = channels;
+  if (stored == channels) {
+    image.pixels = std::move(values);
+    return image;
+  }
+  image.pixels.resize(image.pixelCount() * std::size_t(channels));
   for (std::size_t i = 0; i < image.pixelCount(); ++i) {
     for (int c = 0; c < channels; ++c)
       image.pixels[i * std::size_t(channels) + std::size_t(c)] =
