@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/format.h"
 #include "math/brdf.h"
 #include "scene/environment.h"
 
@@ -84,18 +85,19 @@ EnvironmentLight::EnvironmentLight(gpu::Device& device, const Environment& envir
   row_.map_width = float(environment.width);
   row_.map_height = float(environment.height);
   gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .mips = gpu::kAllMips};
-  std::vector<float> texels(4, 0.0f);
+  std::vector<std::uint16_t> halves(4, 0);
   if (!environment.empty()) {
     desc.width = environment.width;
     desc.height = environment.height;
-    texels.resize(environment.radiance.size() * 4);
+    halves.resize(environment.radiance.size() * 4);
     for (std::size_t i = 0; i < environment.radiance.size(); ++i) {
       for (int c = 0; c < 3; ++c)
-        texels[4 * i + std::size_t(c)] = std::min(environment.radiance[i][c], kLargestHalf);
+        halves[4 * i + std::size_t(c)] =
+            gpu::halfFromFloat(std::min(environment.radiance[i][c], kLargestHalf));
     }
   }
   map_ = gpu::Image(device, "frame.environment", desc);
-  map_.uploadFloats(texels);
+  map_.upload(halves);
   map_.generateMips();
 }
 
