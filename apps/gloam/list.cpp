@@ -28,6 +28,8 @@ std::string coverageText(const Coverage& covers) {
   if (covers.environment_indirect) parts.emplace_back("environment indirect");
   if (covers.local_direct) parts.emplace_back("local direct");
   if (covers.local_indirect) parts.emplace_back("local indirect");
+  if (covers.emitter_direct) parts.emplace_back("emitters direct");
+  if (covers.emitter_indirect) parts.emplace_back("emitters indirect");
   return CLI::detail::join(parts, ", ");
 }
 
@@ -79,7 +81,9 @@ Json coverageJson(const Coverage& covers) {
   return {{"environment_direct", covers.environment_direct},
           {"environment_indirect", covers.environment_indirect},
           {"local_direct", covers.local_direct},
-          {"local_indirect", covers.local_indirect}};
+          {"local_indirect", covers.local_indirect},
+          {"emitter_direct", covers.emitter_direct},
+          {"emitter_indirect", covers.emitter_indirect}};
 }
 
 Json optionJson(const Option& option) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,6 +50,8 @@ struct Layer {
 struct LayeredImage {
   int width = 0, height = 0;
   std::vector<Layer> layers;
+  /// Remarks that travel with the file as string attributes of its header ("gloam.bounces": "1").
+  std::map<std::string, std::string> attributes;
 
   /// The layer of that name, or null.
   const Layer* find(std::string_view name) const;

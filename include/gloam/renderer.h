@@ -50,12 +50,6 @@ class Settings {
   std::map<std::string, OptionValue> values_;
 };
 
-/// Which light a technique computes, by source and path. What it does not cover is left out, and said so.
-struct Coverage {
-  bool environment_direct = false, environment_indirect = false;
-  bool local_direct = false, local_indirect = false;
-};
-
 struct TechniqueInfo {
   const char* name;     ///< folder, namespace, command-line value, shader and timer prefix
   const char* summary;  ///< one line
@@ -82,8 +76,8 @@ std::vector<DeviceInfo> devices();
 struct HostDevice {
   void* instance = nullptr;         ///< VkInstance
   void* physical_device = nullptr;  ///< VkPhysicalDevice
-  void* device = nullptr;           ///< VkDevice with scalarBlockLayout, dynamicRendering, synchronization2 enabled
-  void* queue = nullptr;            ///< VkQueue, graphics and compute
+  void* device = nullptr;  ///< VkDevice with scalarBlockLayout, dynamicRendering, synchronization2 enabled
+  void* queue = nullptr;   ///< VkQueue, graphics and compute
   unsigned queue_family = 0;
 };
 
@@ -93,11 +87,11 @@ struct RenderOptions {
   int width = 1024, height = 1024;  ///< 1 to 16384
   int supersample = 1;              ///< 1 to 4: that many times the size in each direction, box-filtered
   std::string technique = "irradiance";
-  Settings settings;                     ///< of that technique
-  int shadow_map_size = 1024;            ///< texels a side for punctual lights
-  bool background = true;                ///< draw the environment behind the scene; else black, alpha 0
-  bool timings = false;                  ///< fill RenderedFrame::passes
-  bool layers = true;  ///< normal, depth, albedo and object besides the light
+  Settings settings;           ///< of that technique
+  int shadow_map_size = 1024;  ///< texels a side for punctual lights
+  bool background = true;      ///< draw the environment behind the scene; else black, alpha 0
+  bool timings = false;        ///< fill RenderedFrame::passes
+  bool layers = true;          ///< normal, depth, albedo and object besides the light
   /// Any image of the frame by name ("frame.irradiance_direct", "prt.irradiance_indirect"; Renderer::imageNames() lists
   /// them) as one more layer of that name, for eyes; empty: none.
   std::string show;

@@ -36,8 +36,8 @@ struct TextureSlot {
   int texture = kNone;  ///< index into Scene::textures
   int uv_set = 0;       ///< index into Mesh::uv_sets
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
-  bool nearest = false;              ///< magnification filter
-  glm::mat3 texture_from_uv{1.0f};   ///< KHR_texture_transform, applied to (u, v, 1)
+  bool nearest = false;             ///< magnification filter
+  glm::mat3 texture_from_uv{1.0f};  ///< KHR_texture_transform, applied to (u, v, 1)
   explicit operator bool() const { return texture != kNone; }
 };
 
@@ -48,7 +48,8 @@ struct Material {
   glm::vec4 base_color{1.0f};
   float metallic = 1.0f;
   float roughness = 1.0f;
-  float specular = 1.0f;     ///< KHR_materials_specular's specularFactor, 0 to 1: 0 makes a purely diffuse non-metal
+  float specular =
+      1.0f;  ///< KHR_materials_specular's specularFactor, 0 to 1: 0 makes a purely diffuse non-metal
   glm::vec3 emission{0.0f};  ///< radiance: emissiveFactor times KHR_materials_emissive_strength
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;  ///< read and kept; not used in lighting, which computes its own occlusion
@@ -70,11 +71,12 @@ struct MorphTarget {
 /// Precomputed radiance transfer of a mesh's vertices (PRT-1), without the receiver's own albedo / pi. In the mesh's own
 /// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart.
 struct Transfer {
-  int order = 0;                  ///< n bands, n^2 coefficients a vertex
-  int bounces = 0;                ///< interreflection passes contained in `indirect`
-  int directions = 0;             ///< directions a vertex in the first pass
-  std::vector<float> direct;      ///< DS: [vertex][coefficient], size vertices * order^2
-  std::vector<float> indirect;    ///< DI - DS: [vertex][coefficient][rgb], size vertices * order^2 * 3; empty without bounces
+  int order = 0;              ///< n bands, n^2 coefficients a vertex
+  int bounces = 0;            ///< interreflection passes contained in `indirect`
+  int directions = 0;         ///< directions a vertex in the first pass
+  std::vector<float> direct;  ///< DS: [vertex][coefficient], size vertices * order^2
+  std::vector<float>
+      indirect;  ///< DI - DS: [vertex][coefficient][rgb], size vertices * order^2 * 3; empty without bounces
 };
 
 /// Triangles that share a material: a glTF primitive. All vertex arrays have the length of `positions` or are empty
@@ -90,8 +92,8 @@ struct Mesh {
   std::vector<std::uint16_t> joints;  ///< [vertex][influence], indices into Skin::joints
   std::vector<float> weights;         ///< [vertex][influence], sums to 1
   std::vector<MorphTarget> morph_targets;
-  std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from outside
-  int material = 0;                    ///< index into Scene::materials; always valid
+  std::vector<std::uint32_t> indices;        ///< three a triangle, counter-clockwise seen from outside
+  int material = 0;                          ///< index into Scene::materials; always valid
   std::shared_ptr<const Transfer> transfer;  ///< null unless baked
 
   std::size_t vertexCount() const { return positions.size(); }
@@ -120,9 +122,20 @@ struct Light {
   float outer_cone_rad = 0.785398163f;
 };
 
+/// Which light is computed: by what sends it, and by whether the first surface that it meets is the one that is seen
+/// (direct) or it came there by way of others (indirect). Local light is that of lamps; emitters are surfaces with
+/// emission, whose own glow is always seen.
+struct Coverage {
+  bool environment_direct = false, environment_indirect = false;
+  bool local_direct = false, local_indirect = false;
+  bool emitter_direct = false, emitter_indirect = false;
+  bool operator==(const Coverage&) const = default;
+};
+inline constexpr Coverage kAllLight{true, true, true, true, true, true};
+
 struct Skin {
-  std::vector<int> joints;                        ///< node indices
-  std::vector<glm::mat4> joint_from_mesh;         ///< inverse bind matrices, one a joint
+  std::vector<int> joints;                 ///< node indices
+  std::vector<glm::mat4> joint_from_mesh;  ///< inverse bind matrices, one a joint
 };
 
 struct Node {
@@ -136,7 +149,8 @@ struct Node {
   std::vector<int> meshes;          ///< indices into Scene::meshes: the primitives of a glTF mesh
   int skin = kNone, camera = kNone, light = kNone;
   std::vector<float> morph_weights;
-  std::vector<glm::mat4> instances;  ///< EXT_mesh_gpu_instancing: node_from_instance; empty: one, the identity
+  std::vector<glm::mat4>
+      instances;  ///< EXT_mesh_gpu_instancing: node_from_instance; empty: one, the identity
 };
 
 struct AnimationChannel {
@@ -179,8 +193,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Skin> skins;
   std::vector<Animation> animations;
-  Environment environment;  ///< empty unless the scene brings its own (EXT_lights_image_based, built-in scenes)
-  Warnings warnings;        ///< what the reader mended or left out
+  Environment
+      environment;    ///< empty unless the scene brings its own (EXT_lights_image_based, built-in scenes)
+  Warnings warnings;  ///< what the reader mended or left out
 
   float duration_s() const;  ///< time of the last key of all animations
 };

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "frame/view.h"
 
-#include <fmt/format.h>
-#include <cmath>
+#include "scene/camera_rays.h"
 
 namespace gloam::frame {
 
 namespace {
-
-constexpr float kPi = 3.14159265358979f;
 
 /// Distance along `forward` from the eye to the farthest corner of a box.
 float farthestDepth(const glm::vec3& eye, const glm::vec3& forward, const glm::vec3& low,
@@ -30,56 +27,32 @@ glm::mat4 viewFromWorld(const glm::mat3& axes, const glm::vec3& eye) {
 
 }  // namespace
 
-glm::mat3 cameraAxes(const glm::mat4& world_from_view) {
-  const glm::vec3 backward = glm::normalize(glm::vec3(world_from_view[2]));
-  glm::vec3 right = glm::vec3(world_from_view[0]);
-  right = glm::normalize(right - backward * glm::dot(backward, right));
-  return {right, glm::cross(backward, right), backward};
-}
-
 FrameView makeView(const PosedCamera& posed, int width, int height, const glm::vec3& bounds_min,
                    const glm::vec3& bounds_max) {
-  const Camera& camera = posed.camera;
-  const std::string place = camera.name.empty() ? "camera" : "camera '" + camera.name + "'";
-  const glm::mat3 axes = cameraAxes(posed.world_from_view);
-  if (!std::isfinite(axes[0].x + axes[1].x + axes[2].x + posed.world_from_view[3].x))
-    throw Error(place, "its matrix has no orientation (a scale of 0 or not-a-number)");
-
+  const CameraRays rays = makeCameraRays(posed, width, height);
   FrameView view{};
-  view.eye = glm::vec3(posed.world_from_view[3]);
-  view.forward = -axes[2];
+  view.eye = rays.eye;
+  view.forward = rays.forward;
   view.width = static_cast<std::uint32_t>(width);
   view.height = static_cast<std::uint32_t>(height);
-  const float aspect = float(width) / float(height);
+  view.z_near = rays.z_near;
   glm::mat4 clip_from_view(0.0f);
-  float half_height = camera.half_height;
-  if (camera.perspective) {
-    if (!(camera.vertical_fov_rad > 0.0f && camera.vertical_fov_rad < kPi))
-      throw Error(place,
-                  fmt::format("field of view {} rad is not between 0 and pi", camera.vertical_fov_rad));
-    if (!(camera.z_near > 0.0f)) throw Error(place, fmt::format("z_near {} is not positive", camera.z_near));
-    view.z_near = camera.z_near;
-    half_height = std::tan(0.5f * camera.vertical_fov_rad);
+  if (rays.perspective) {
     clip_from_view[2][3] = -1.0f;
     clip_from_view[3][2] = view.z_near;
   } else {
-    if (!(half_height > 0.0f))
-      throw Error(place, fmt::format("orthographic height {} is not positive", half_height));
     const float farthest = farthestDepth(view.eye, view.forward, bounds_min, bounds_max);
-    view.z_near = std::max(camera.z_near, 0.0f);
     view.depth_range = std::max(1.01f * (farthest - view.z_near), 1e-3f);
     clip_from_view[2][2] = 1.0f / view.depth_range;
     clip_from_view[3][2] = (view.z_near + view.depth_range) / view.depth_range;
     clip_from_view[3][3] = 1.0f;
   }
-  const float half_width = half_height * aspect;
-  clip_from_view[0][0] = 1.0f / half_width;
-  clip_from_view[1][1] = -1.0f / half_height;  // rows count downward
-  view.corner = -half_width * axes[0] + half_height * axes[1];
-  if (camera.perspective) view.corner += view.forward;
-  view.step_x = (2.0f * half_width / float(width)) * axes[0];
-  view.step_y = (-2.0f * half_height / float(height)) * axes[1];
-  view.clip_from_world = clip_from_view * viewFromWorld(axes, view.eye);
+  clip_from_view[0][0] = 1.0f / rays.half_width;
+  clip_from_view[1][1] = -1.0f / rays.half_height;  // rows count downward
+  view.corner = rays.corner;
+  view.step_x = rays.step_x;
+  view.step_y = rays.step_y;
+  view.clip_from_world = clip_from_view * viewFromWorld(rays.axes, view.eye);
   view.previous_clip_from_world = view.clip_from_world;
   return view;
 }

@@ -17,9 +17,6 @@ namespace gloam::frame {
 FrameView makeView(const PosedCamera& camera, int width, int height, const glm::vec3& bounds_min,
                    const glm::vec3& bounds_max);
 
-/// Orthonormal axes of a camera: columns right, up, backward.
-glm::mat3 cameraAxes(const glm::mat4& world_from_view);
-
 /// What a view and a box have in common, from the eye: corners of the frustum cut at the farthest corner of
 /// the box.
 std::array<glm::vec3, 8> frustumCorners(const FrameView& view, const glm::vec3& bounds_min,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // REF-2: all five measures come from one pass of sums in double precision.
-#include "image/metrics.h"
+#include <gloam/metrics.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
-#include "image/metrics.h"
+#include <gloam/metrics.h>
 
 #include <gtest/gtest.h>
 

@@ -78,7 +78,9 @@ TEST(Renderer, ManyFramesTakeNoMoreMemory) {
     const RenderedFrame frame =
         renderer().render(posed, cameraOf(posed), {.width = 24, .height = 24, .layers = i % 2 == 0});
     if (i == 20) memory = frame.memory_bytes;
-    if (i > 20) ASSERT_LE(frame.memory_bytes, memory + 4096) << "frame " << i;
+    if (i > 20) {
+      ASSERT_LE(frame.memory_bytes, memory + 4096) << "frame " << i;
+    }
   }
 }
 
@@ -90,7 +92,9 @@ TEST(Renderer, ScenesCanBeSwapped) {
     const RenderedFrame again = draw(loadScene("builtin:cornell"));
     EXPECT_EQ(again.layers.layers[0].pixels, cornell.layers.layers[0].pixels);
     if (i == 2) memory = again.memory_bytes;
-    if (i > 2) EXPECT_LE(again.memory_bytes, memory + 4096);
+    if (i > 2) {
+      EXPECT_LE(again.memory_bytes, memory + 4096);
+    }
   }
 }
 
