@@ -1,0 +1,5 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "reference/integrator.h"
+
+#include <gtest/gtest.h>
