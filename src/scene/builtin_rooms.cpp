@@ -53,7 +53,7 @@ Mesh ceilingWithHole(float height, float hole, float thickness, float cell) {
     return all;
   };
   // Looking up: u to the right, v towards the back wall, first the open front.
-  std::vector<float> depth = lines(true);
+  std::vector<float> depth = lines(false);
   for (float& z : depth) z = 2.0f - z;
   std::reverse(depth.begin(), depth.end());
   Mesh mesh = shapes::patch({-1, height, 1}, {1, 0, 0}, {0, 0, -1}, lines(true), depth);
@@ -87,7 +87,7 @@ Mesh ceilingWithHole(float height, float hole, float thickness, float cell) {
                                      whole, whole));
   shapes::append(
       mesh, shapes::patch(top + glm::vec3(hole, 0, -hole), {outer - hole, 0, 0}, {0, 0, side}, whole, whole));
-  shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, 1), {2 * outer, 0, 0}, down, whole, whole));
+  shapes::append(mesh, shapes::patch(top + glm::vec3(-1, 0, 1), {2, 0, 0}, down, whole, whole));
   return mesh;
 }
 
