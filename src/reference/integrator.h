@@ -9,6 +9,9 @@
 
 #include <array>
 #include <memory>
+#include <vector>
+
+#include "trace/tracer.h"
 
 namespace gloam::reference {
 
@@ -32,32 +35,38 @@ struct CameraPoint {
   int triangle = 0;
   float u = 0.0f, v = 0.0f;
   float eye_depth = 0.0f;                  ///< 0: background
+  float ray_offset = 0.0f;                 ///< rays start that far off, along the geometric normal
   glm::vec3 position{0.0f}, to_eye{0.0f};  ///< to_eye unit
   glm::vec3 geometric_normal{0.0f};        ///< unit, toward the eye
-  glm::vec3 normal{0.0f};                  ///< shading normal, by the rule of sides (frame/README.md)
-  glm::vec3 albedo{0.0f};                  ///< k_d, the texture averaged over the pixel
+  glm::vec3 normal{0.0f};  ///< shading normal, by the rule of sides (frame/README.md); as albedo
+  glm::vec3 albedo{0.0f};  ///< k_d, the texture averaged over the pixel
   /// Change of a texture coordinate's place on the triangle (u, v) from one pixel to the next: textures are averaged over
   /// the pixel, as a rasteriser's mip levels do; edges stay where the one ray finds them.
   glm::vec2 uv_per_x{0.0f}, uv_per_y{0.0f};
 };
 
+/// How a direction to a source is found. Each is right; together they are quiet (Veach 1997). Alone they are for tests.
+enum class Sampling { kBoth, kLights, kLobes };
+
 /// Thread-safe once built. Keeps references to `scene` alone.
 class Integrator {
  public:
   Integrator(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
-             const Environment& environment, const ReferenceOptions& options, const Progress& progress);
+             const Environment& environment, const ReferenceOptions& options, const Progress& progress,
+             Sampling sampling = Sampling::kBoth);
   ~Integrator();
   Integrator(const Integrator&) = delete;
 
   /// Position (x, y) of the supersampled picture, pixel centres: 0 <= x < width * supersample.
   CameraPoint look(int x, int y) const;
   /// Sample `sample` of all paths that start at a point. `pixel` decorrelates neighbours. Where nothing was met
-  /// it is the background's radiance somewhere in the pixel. `rays` is raised by the rays traced.
+  /// it is the background's radiance somewhere in the pixel. `rays` is raised by the rays traced, and `log` gets them.
   PathLight trace(const CameraPoint& point, int x, int y, std::uint32_t pixel, std::uint32_t sample,
-                  std::size_t& rays) const;
+                  std::size_t& rays, std::vector<trace::LoggedRay>* log = nullptr) const;
 
   /// Which sources the scene has at all: parts of others stay 0 and need no memory.
   bool has(LightPath path) const;
+  const trace::Tracer& tracer() const;
 
  private:
   struct Impl;

@@ -31,6 +31,12 @@ struct Hit {
   explicit operator bool() const { return instance != kNoHit; }
 };
 
+/// A ray that was traced, to be traced again.
+struct LoggedRay {
+  Ray ray;
+  bool occlusion = false;  ///< asked whether it meets anything; else what it meets first
+};
+
 /// How far off a triangle a ray has to start so that rounding does not let it meet that triangle again: 32 units in the last
 /// place of the largest coordinate of its corners (some micrometres in a room). The origin is moved by this much along the
 /// geometric normal, to the side into which the ray leaves. No t_near: in grazing directions it would step over thin gaps.

@@ -92,6 +92,38 @@ glm::vec2 metallicRoughness(const Scene& scene, const Mesh& mesh, const SurfaceP
   return {material.metallic * map.b, material.roughness * map.g};
 }
 
+glm::vec3 emission(const Scene& scene, const Mesh& mesh, const SurfacePoint& point) {
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  return material.emission * glm::vec3(sampleTexture(scene, material.emission_map, mesh, point, true));
+}
+
+MaterialPoint materialAt(const Scene& scene, const Mesh& mesh, const SurfacePoint& point,
+                         const SurfacePoint& texture_point) {
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  MaterialPoint result;
+  result.base_color =
+      material.base_color * sampleTexture(scene, material.base_color_map, mesh, texture_point, true);
+  if (!mesh.colors.empty()) result.base_color *= interpolate(mesh, mesh.colors, point);
+  const glm::vec2 factors = metallicRoughness(scene, mesh, texture_point);
+  result.metallic = factors.x;
+  result.roughness = factors.y;
+  result.emission = emission(scene, mesh, texture_point);
+  return result;
+}
+
+glm::vec3 mappedNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm::vec3& texel,
+                       float scale) {
+  const glm::vec3 along = glm::vec3(tangent) - normal * glm::dot(normal, glm::vec3(tangent));
+  const float squared = glm::dot(along, along);
+  if (squared < 1e-12f) return normal;
+  const glm::vec3 t = along / std::sqrt(squared);
+  const glm::vec3 b = glm::cross(normal, t) * (tangent.w < 0.0f ? -1.0f : 1.0f);
+  const glm::vec3 m = (texel * 2.0f - 1.0f) * glm::vec3(scale, scale, 1.0f);
+  const glm::vec3 tilted = m.x * t + m.y * b + m.z * normal;
+  const float length = glm::length(tilted);
+  return length > 0.0f ? tilted / length : normal;
+}
+
 glm::vec3 diffuseAlbedo(const Scene& scene, const Mesh& mesh, const SurfacePoint& point) {
   const float metallic = metallicRoughness(scene, mesh, point).x;
   return glm::clamp(glm::vec3(baseColor(scene, mesh, point)) * (1.0f - metallic), 0.0f, 1.0f);

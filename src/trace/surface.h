@@ -33,6 +33,23 @@ glm::vec4 sampleTexture(const Scene& scene, const TextureSlot& slot, const Mesh&
 glm::vec4 baseColor(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
 /// x: metallic, y: roughness.
 glm::vec2 metallicRoughness(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
+/// Radiance that the surface sends out of itself, the same on both sides.
+glm::vec3 emission(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
+
+/// All factors at once: vertex colours at `point`, textures at `texture_point`, which may lie beside it (and beyond the
+/// triangle): whoever averages over a footprint moves the textures alone.
+struct MaterialPoint {
+  glm::vec4 base_color{1.0f};  ///< linear; w is alpha
+  float metallic = 1.0f, roughness = 1.0f;
+  glm::vec3 emission{0.0f};
+};
+MaterialPoint materialAt(const Scene& scene, const Mesh& mesh, const SurfacePoint& point,
+                         const SurfacePoint& texture_point);
+/// Tilts a unit normal as a normal map's texel (0 to 1) says, in the frame that glTF prescribes: tangent made perpendicular
+/// to the normal, bitangent by the sign in w. The normal itself where the tangent has no direction.
+glm::vec3 mappedNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm::vec3& texel,
+                       float scale);
+
 /// k_d = base (1 - metallic), held to 0..1: no surface sends back more than it receives.
 glm::vec3 diffuseAlbedo(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
 

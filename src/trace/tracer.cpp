@@ -27,11 +27,7 @@ struct Tracer::Embree {
   RTCScene scene = nullptr;
   std::vector<AlphaMask> alpha_masks;  // one an instance, never moved: filters point into it
   std::vector<std::uint8_t> mirrored;  // one an instance
-  struct Buffers {
-    const glm::vec3* positions = nullptr;
-    const glm::uvec3* triangles = nullptr;
-  };
-  std::vector<Buffers> buffers;  // one an instance; the geometry owns them
+  std::vector<Triangles> buffers;      // one an instance; the geometry owns them
   std::atomic<std::int64_t> memory_bytes{0};
 
   ~Embree() {
@@ -62,8 +58,7 @@ bool monitorBuild(void* data, double fraction) {
 }
 
 // The arrays are written anew rather than shared: the tracing library wants world space and padding at the end.
-template <class Buffers>
-Buffers fillBuffers(RTCGeometry geometry, const Mesh& mesh, const Instance& instance) {
+Tracer::Triangles fillBuffers(RTCGeometry geometry, const Mesh& mesh, const Instance& instance) {
   const std::size_t vertices = mesh.vertexCount();
   auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices));
@@ -80,12 +75,12 @@ Buffers fillBuffers(RTCGeometry geometry, const Mesh& mesh, const Instance& inst
   return {positions, indices};
 }
 
-template <class Buffers>
-RTCGeometry makeGeometry(RTCDevice device, const Mesh& mesh, const Instance& instance, Buffers& buffers) {
+RTCGeometry makeGeometry(RTCDevice device, const Mesh& mesh, const Instance& instance,
+                         Tracer::Triangles& buffers) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!geometry) throw Error("ray hierarchy", "no memory");
   try {
-    buffers = fillBuffers<Buffers>(geometry, mesh, instance);
+    buffers = fillBuffers(geometry, mesh, instance);
   } catch (...) {
     rtcReleaseGeometry(geometry);
     throw;
@@ -104,6 +99,21 @@ void checkBuilt(RTCDevice device, std::size_t triangles) {
     default:
       throw Error("ray hierarchy", "Embree could not build it");
   }
+}
+
+RTCRay embreeRay(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.t_near,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0f,
+          ray.t_far,
+          ~0u,
+          0u,
+          0u};
 }
 
 glm::vec3 unit(const glm::vec3& v) {
@@ -157,27 +167,21 @@ std::size_t Tracer::memoryBytes() const {
   return std::size_t(std::max<std::int64_t>(0, embree_->memory_bytes.load()));
 }
 
+Tracer::Triangles Tracer::triangles(int instance) const {
+  return embree_->buffers[std::size_t(instance)];
+}
+
 float Tracer::surfaceOffset(const Hit& hit) const {
-  const auto& [positions, triangles] = embree_->buffers[std::size_t(hit.instance)];
-  const glm::uvec3& t = triangles[hit.triangle];
-  return trace::surfaceOffset(positions[t.x], positions[t.y], positions[t.z]);
+  const auto& [positions, vertices] = embree_->buffers[std::size_t(hit.instance)];
+  const glm::uvec3& v = vertices[hit.triangle];
+  return trace::surfaceOffset(positions[v.x], positions[v.y], positions[v.z]);
 }
 
 Hit Tracer::closest(const Ray& ray) const {
-  RTCRayHit query{};
-  query.ray = {ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.t_near,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0.0f,
-               ray.t_far,
-               ~0u,
-               0u,
-               0u};
+  RTCRayHit query;
+  query.ray = embreeRay(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embreeIntersect1(embree_->scene, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const glm::vec3 normal = unit({query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
@@ -187,20 +191,27 @@ Hit Tracer::closest(const Ray& ray) const {
 }
 
 bool Tracer::occluded(const Ray& ray) const {
-  RTCRay query{ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.t_near,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0.0f,
-               ray.t_far,
-               ~0u,
-               0u,
-               0u};
+  RTCRay query = embreeRay(ray);
   embreeOccluded1(embree_->scene, &query);
   return query.tfar < 0.0f;
+}
+
+std::size_t Tracer::replay(std::span<const LoggedRay> rays) const {
+  std::size_t hits = 0;
+  for (const LoggedRay& logged : rays) {
+    RTCRayHit query;
+    query.ray = embreeRay(logged.ray);
+    if (logged.occlusion) {
+      embreeOccluded1(embree_->scene, &query.ray);
+      hits += query.ray.tfar < 0.0f ? 1 : 0;
+      continue;
+    }
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embreeIntersect1(embree_->scene, &query);
+    hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+  }
+  return hits;
 }
 
 void Tracer::occluded(RayPacket& rays, const LaneMask& mask, bool coherent) const {

@@ -11,6 +11,7 @@
 #include <gloam/scene.h>
 
 #include <memory>
+#include <span>
 
 #include "trace/rays.h"
 
@@ -20,8 +21,8 @@ struct TracerOptions {
   /// Builds on one core. A parallel build may order triangles differently from run to run, and where two coincide the first
   /// one found is the hit: a result that must have the same bits every time needs this.
   bool reproducible = false;
-  /// Watertight along shared edges, at about a tenth of the speed. Without it a ray slips through an edge about once in a
-  /// million.
+  /// Watertight along shared edges, at about a tenth of the speed. Without it rays slip through edges: of those that cross
+  /// faces at a fair angle about one in a million, but far more where they run along a surface and meet its edges edge-on.
   bool robust = false;
   /// Leaves out skinned and morphed instances.
   bool rigid_only = false;
@@ -44,12 +45,23 @@ class Tracer {
   /// surfaceOffset (rays.h) of the triangle that was hit.
   float surfaceOffset(const Hit& hit) const;
 
+  /// The triangles of an instance, in the world; null where it has none.
+  struct Triangles {
+    const glm::vec3* positions = nullptr;
+    const glm::uvec3* vertices = nullptr;
+  };
+  Triangles triangles(int instance) const;
+
   Hit closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 
   /// Sixteen at once, those whose lane of `mask` is set. `coherent` promises that the rays are near to each other.
   void occluded(RayPacket& rays, const LaneMask& mask, bool coherent) const;
   void closest(const RayPacket& rays, const LaneMask& mask, bool coherent, HitPacket& hits) const;
+
+  /// Hands the rays one by one to the tracing library, and does nothing else: what is left when all else is taken away.
+  /// The number of those that hit.
+  std::size_t replay(std::span<const LoggedRay> rays) const;
 
  private:
   struct Embree;

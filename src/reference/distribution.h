@@ -1,0 +1,43 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Choosing one of many by weight.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gloam::reference {
+
+/// Inverts a cumulative distribution in fixed point, with a table of where to begin (Chen, Asau 1974). Larger numbers choose
+/// later entries, so evenly spread numbers choose evenly. What it chooses has exactly the probability that it tells.
+class Distribution {
+ public:
+  Distribution() = default;
+  /// Weights that are not positive and finite count as 0. No positive weight: empty().
+  explicit Distribution(std::span<const float> weights);
+
+  bool empty() const { return starts_.empty(); }
+  struct Choice {
+    std::uint32_t index = 0;
+    float rest = 0.0f;  ///< where in the entry's share the number fell, in [0, 1]: as even as the number
+  };
+  Choice choose(std::uint32_t number) const {
+    std::uint32_t i = first_[number >> shift_];
+    while (i < last_ && starts_[i + 1] <= number) ++i;
+    return {i, float(number - starts_[i]) / float(width(i))};
+  }
+  float probability(std::uint32_t i) const { return i <= last_ ? float(width(i)) * 0x1p-32f : 0.0f; }
+
+ private:
+  std::uint64_t width(std::uint32_t i) const {
+    return (i < last_ ? starts_[i + 1] : std::uint64_t(1) << 32) - starts_[i];
+  }
+  std::vector<std::uint32_t> starts_;  // least number of each entry; those of width 0 start with the next
+  std::vector<std::uint32_t> first_;   // entry that holds the first number of each equal part
+  std::uint32_t last_ = 0;             // last entry with a weight
+  int shift_ = 0;
+};
+
+}  // namespace gloam::reference

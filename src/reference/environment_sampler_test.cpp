@@ -1,0 +1,133 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "reference/environment_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/sampling.h"
+#include "reference/sampler.h"
+#include "scene/environment.h"
+
+namespace gloam::reference {
+namespace {
+
+// Uneven, coloured, with a sun of one texel, a black part, turned and dimmed.
+Environment oddSky(int width, int height) {
+  Environment sky;
+  sky.width = width;
+  sky.height = height;
+  for (int i = 0; i < width * height; ++i) {
+    const float x = float(i % width) / float(width);
+    sky.radiance.emplace_back(x < 0.3f ? 0.0f : 0.2f + x, x < 0.3f ? 0.0f : 1.0f - x, 0.5f * x);
+  }
+  sky.radiance[std::size_t((height / 3) * width + width / 2)] = glm::vec3(200.0f, 150.0f, 90.0f);
+  sky.rotation_rad = 0.7f;
+  sky.intensity = 1.7f;
+  return sky;
+}
+
+// Sum over a fine grid of equal steps in angle.
+template <class Function>
+glm::dvec3 integral(const Function& function, int rows = 600) {
+  glm::dvec3 sum(0.0);
+  const double step = 3.14159265358979 / rows;
+  for (int row = 0; row < rows; ++row) {
+    const double elevation = 3.14159265358979 / 2 - (row + 0.5) * step;
+    for (int column = 0; column < 2 * rows; ++column) {
+      const double phi = (column + 0.5) * step;
+      const glm::vec3 d(std::cos(elevation) * std::cos(phi), std::sin(elevation),
+                        std::cos(elevation) * std::sin(phi));
+      sum += glm::dvec3(function(d)) * (std::cos(elevation) * step * step);
+    }
+  }
+  return sum;
+}
+
+TEST(EnvironmentSampler, IsTheEnvironment) {
+  for (const glm::ivec2 size : {glm::ivec2(32, 16), glm::ivec2(7, 5), glm::ivec2(1, 1), glm::ivec2(2, 1)}) {
+    const Environment sky = oddSky(size.x, size.y);
+    const EnvironmentSampler sampler(sky, 0);
+    for (std::uint32_t i = 0; i < 5000; ++i) {
+      const glm::vec3 d = sampling::uniformSphere(sampling::r2(i));
+      const glm::vec3 want = radianceFrom(sky, d);
+      const EnvironmentSampler::Light got = sampler.from(d);
+      EXPECT_LT(glm::length(got.radiance - want), 1e-3f + 1e-3f * glm::length(want));
+      if (want != glm::vec3(0.0f)) {
+        EXPECT_GT(got.pdf, 0.0f);
+      }
+    }
+  }
+}
+
+TEST(EnvironmentSampler, DensityIntegratesToOne) {
+  for (const glm::ivec2 size : {glm::ivec2(32, 16), glm::ivec2(6, 3), glm::ivec2(1, 1)}) {
+    const EnvironmentSampler sampler(oddSky(size.x, size.y), 0);
+    EXPECT_NEAR(integral([&](const glm::vec3& d) { return glm::vec3(sampler.from(d).pdf); }).x, 1.0, 2e-3);
+  }
+  const EnvironmentSampler projected(oddSky(32, 16), 4);
+  EXPECT_NEAR(integral([&](const glm::vec3& d) { return glm::vec3(projected.from(d).pdf); }).x, 1.0, 2e-3);
+}
+
+// Moments of the light itself and of the direction, weighted by light / density, against the sum over the sphere.
+void expectUnbiased(const EnvironmentSampler& sampler) {
+  constexpr int kSamples = 1 << 16;
+  glm::dvec3 light(0.0), up(0.0);
+  for (int i = 0; i < kSamples; ++i) {
+    const EnvironmentSampler::Sample s = sampler.sample(Sampler(9, 1, std::uint32_t(i)).bits(0));
+    ASSERT_GT(s.light.pdf, 0.0f);
+    ASSERT_NEAR(glm::length(s.direction), 1.0f, 1e-5f);
+    const EnvironmentSampler::Light again = sampler.from(s.direction);
+    EXPECT_NEAR(again.pdf, s.light.pdf, 2e-3f * s.light.pdf + 1e-4f);
+    EXPECT_LT(glm::length(again.radiance - s.light.radiance), 2e-3f * glm::length(s.light.radiance) + 1e-3f);
+    const glm::dvec3 weighted = glm::dvec3(s.light.radiance) / double(s.light.pdf) / double(kSamples);
+    light += weighted;
+    up += weighted * double(std::max(0.0f, s.direction.y + 0.3f * s.direction.x));
+  }
+  const glm::dvec3 want_light = integral([&](const glm::vec3& d) { return sampler.from(d).radiance; });
+  const glm::dvec3 want_up = integral(
+      [&](const glm::vec3& d) { return sampler.from(d).radiance * std::max(0.0f, d.y + 0.3f * d.x); });
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(light[c], want_light[c], 2e-3 * std::abs(want_light[c]) + 1e-4);
+    EXPECT_NEAR(up[c], want_up[c], 2e-3 * std::abs(want_up[c]) + 1e-4);
+  }
+}
+
+TEST(EnvironmentSampler, SamplesAreUnbiased) {
+  expectUnbiased(EnvironmentSampler(oddSky(32, 16), 0));
+  expectUnbiased(EnvironmentSampler(oddSky(5, 3), 0));
+  expectUnbiased(EnvironmentSampler(oddSky(1, 1), 0));
+}
+
+TEST(EnvironmentSampler, ProjectionIsThatOfTheRenderer) {
+  const Environment sky = oddSky(32, 16);
+  const EnvironmentSampler sampler(sky, 3);
+  const sh::ShRgb light = projectEnvironment(sky, 3);
+  float least = 0.0f;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const glm::vec3 d = sampling::uniformSphere(sampling::r2(i));
+    const EnvironmentSampler::Light got = sampler.from(d);
+    EXPECT_LT(glm::length(got.radiance - sh::valueAt(light, d)), 1e-4f);
+    EXPECT_GT(got.pdf, 0.0f);
+    least = std::min(least, got.radiance.r);
+  }
+  EXPECT_LT(least, 0.0f);  // rings below zero are kept
+  expectUnbiased(sampler);
+}
+
+TEST(EnvironmentSampler, BlackAndMissingSkiesGiveNothing) {
+  Environment black = oddSky(8, 4);
+  for (glm::vec3& texel : black.radiance) texel = glm::vec3(0.0f);
+  for (const int order : {0, 3}) {
+    for (const Environment& sky : {black, Environment{}}) {
+      const EnvironmentSampler sampler(sky, order);
+      EXPECT_TRUE(sampler.black());
+      EXPECT_EQ(sampler.from({0.0f, 1.0f, 0.0f}).radiance, glm::vec3(0.0f));
+      EXPECT_EQ(sampler.sample({1u, 2u}).light.pdf, 0.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam::reference

@@ -1,0 +1,101 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sums become pictures: means of samples, by path, and what the file says of itself.
+#include <fmt/format.h>
+
+#include "reference/reference_file.h"
+
+namespace gloam::reference {
+namespace {
+
+/// Calls visit(pixel, samples) for each pixel, in order.
+template <class Visit>
+void forPixels(const PathSums& sums, const Visit& visit) {
+  std::size_t pixel = 0;
+  for (int y = 0; y < sums.height; ++y) {
+    for (int x = 0; x < sums.width; ++x, ++pixel) visit(pixel, sums.samples[sums.tileOf(x, y)]);
+  }
+}
+
+/// Means of the light of all paths that `takes` names, R, G, B in a picture of that many channels.
+template <class Takes>
+Image meanLight(const PathSums& sums, int channels, const Takes& takes) {
+  Image image(sums.width, sums.height, channels);
+  const std::size_t paths = sums.paths.size();
+  forPixels(sums, [&](std::size_t pixel, std::uint32_t samples) {
+    glm::dvec3 light(0.0);
+    for (std::size_t p = 0; p < paths; ++p) {
+      if (!takes(sums.paths[p])) continue;
+      const double* sum = &sums.sums[(pixel * paths + p) * 3];
+      light += glm::dvec3(sum[0], sum[1], sum[2]);
+    }
+    light /= double(std::max(samples, 1u));
+    for (int c = 0; c < 3; ++c)
+      image.pixels[pixel * std::size_t(channels) + std::size_t(c)] = float(light[c]);
+  });
+  return image;
+}
+
+Image varianceImage(const PathSums& sums) {
+  Image image(sums.width, sums.height, 3);
+  forPixels(sums, [&](std::size_t pixel, std::uint32_t samples) {
+    const glm::dvec3 variance = varianceOf(sums, pixel, samples);
+    for (int c = 0; c < 3; ++c) image.pixels[3 * pixel + std::size_t(c)] = float(variance[c]);
+  });
+  return image;
+}
+
+std::map<std::string, std::string> attributesOf(const TracerState& state, const Coverage& part) {
+  const ReferenceOptions& options = state.options;
+  std::string sources;
+  for (const LightPath path : state.sums.paths) {
+    if (path != kSeen && covers(part, path))
+      sources += (sources.empty() ? "" : " ") + std::string(nameOf(path));
+  }
+  return {{"gloam.kind", "reference"},
+          {"gloam.version", GLOAM_VERSION},
+          {"gloam.light", coverageText(part)},
+          {"gloam.sources", sources.empty() ? "none" : sources},
+          {"gloam.bounces", std::to_string(options.bounces)},
+          {"gloam.samples", std::to_string(state.sums.least())},
+          {"gloam.supersample", std::to_string(options.supersample)},
+          {"gloam.environment_order", std::to_string(options.environment_order)},
+          {"gloam.background", options.background ? "1" : "0"},
+          {"gloam.seed", std::to_string(options.seed)}};
+}
+
+}  // namespace
+
+LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool variance, bool parts) {
+  if (!isPartOf(part, state.options.light)) {
+    throw Error("reference", fmt::format("follows {}; {} was asked for", coverageText(state.options.light),
+                                         coverageText(part)));
+  }
+  const PathSums& sums = state.sums;
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  LayeredImage result;
+  result.width = sums.width;
+  result.height = sums.height;
+  Image sum = meanLight(sums, 4, [&](LightPath path) { return covers(part, path); });
+  for (std::size_t i = 0; i < sum.pixelCount(); ++i) sum.pixels[4 * i + 3] = state.alpha.pixels[i];
+  result.add("", {"R", "G", "B", "A"}, sum, ChannelType::kFloat);
+  for (const bool direct : {true, false}) {
+    const auto takes = [&](LightPath path) { return covers(part, path) && isDirect(path) == direct; };
+    result.add(direct ? "direct" : "indirect", rgb, meanLight(sums, 3, takes), ChannelType::kFloat);
+  }
+  for (const Layer& layer : state.geometry.layers) result.layers.push_back(layer);
+  if (variance) result.add("variance", rgb, varianceImage(sums), ChannelType::kFloat);
+  for (int p = 0; parts && p < kLightPathCount; ++p) {
+    const LightPath path{p};
+    const bool there = path == kSeen || std::ranges::find(sums.paths, path) != sums.paths.end();
+    if (!there || !covers(part, path)) continue;
+    const auto takes = [&](LightPath other) { return other == path; };
+    result.add(nameOf(path), rgb, meanLight(sums, 3, takes), ChannelType::kFloat);
+  }
+  result.attributes = attributesOf(state, part);
+  if (variance) result.attributes["gloam.noise"] = fmt::format("{:.6g}", noiseOf(sums));
+  return result;
+}
+
+}  // namespace gloam::reference

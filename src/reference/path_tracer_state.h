@@ -1,0 +1,84 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What a path tracer has gathered so far.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "reference/integrator.h"
+#include "scene/scene_fingerprint.h"
+
+namespace gloam::reference {
+
+/// Tiles are the unit of work: each has a number of samples of its own, so that work can stop anywhere and go on later.
+inline constexpr int kTileSize = 8;
+inline constexpr int kMaxSamples = 1 << 24;  ///< a pixel
+
+/// Sums of samples, in double precision, always added in the order of samples: no way of splitting the work shows.
+/// Sample k of a pixel starts at position k mod supersample^2, so a round of that many samples holds every position once
+/// and its mean is an estimate of the pixel: variance is that of rounds, in which the differences between positions of one
+/// pixel (edges, textures) are no noise.
+struct PathSums {
+  int width = 0, height = 0;
+  int positions = 1;                   ///< supersample^2: samples a round
+  std::vector<LightPath> paths;        ///< those that have light, ascending
+  std::vector<std::uint32_t> samples;  ///< [tile], of each of its pixels
+  std::vector<double> sums;            ///< [pixel][path][rgb]
+  std::vector<double> squares;         ///< [pixel][rgb]: of each round's sum of all light
+  std::vector<double> round;  ///< [pixel][rgb]: of the round under way; empty where that is one sample
+
+  int tilesAcross() const { return (width + kTileSize - 1) / kTileSize; }
+  std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
+  std::size_t tileOf(int x, int y) const {
+    return std::size_t(y / kTileSize) * std::size_t(tilesAcross()) + std::size_t(x / kTileSize);
+  }
+  std::uint32_t least() const;  ///< samples that every pixel has
+  std::uint32_t most() const;
+  /// Calls visit(data, bytes) for all numbers, in one order.
+  template <class Visit>
+  void forContents(const Visit& visit) {
+    visit(samples.data(), samples.size() * sizeof(samples[0]));
+    for (auto* values : {&sums, &squares, &round}) {
+      if (!values->empty()) visit(values->data(), values->size() * sizeof(double));
+    }
+  }
+};
+
+/// Zeros for a picture of that size. Throws Error where the machine has not so much memory.
+PathSums makePathSums(const ReferenceOptions& options, const Integrator& integrator);
+
+/// Variance of the mean that a pixel holds; infinite below two rounds.
+glm::dvec3 varianceOf(const PathSums& sums, std::size_t pixel, std::uint32_t samples);
+
+/// PathTracer::noise().
+double noiseOf(const PathSums& sums);
+
+struct TracerState {
+  ReferenceOptions options;
+  Fingerprint fingerprint;  ///< of all that samples depend on
+  std::unique_ptr<Integrator> integrator;
+  PathSums sums;
+  std::vector<CameraPoint> points;  ///< [pixel][position]; empty where that would be too much: found again
+  LayeredImage geometry;            ///< normal, depth, albedo, object
+  Image alpha;
+  ReferenceReport report;
+  double rate = 0.0;  ///< samples of a pixel a second, on all threads; 0: not known yet
+};
+
+Fingerprint fingerprintOf(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
+                          const Environment& environment, const ReferenceOptions& options);
+
+/// Finds what every position sees: points (where they are kept), geometry, alpha. Throws Interrupted.
+void lookAround(TracerState& state, const Progress& progress);
+
+/// Who follows the work; both may be empty. Asked and told by one thread at a time.
+struct Watch {
+  std::function<void(double samples)> tell;  ///< samples a pixel, on average
+  std::function<bool()> should_stop;
+};
+/// Brings all tiles to that many samples. False where it was stopped before.
+bool advance(TracerState& state, std::uint32_t until, const Watch& watch);
+
+}  // namespace gloam::reference

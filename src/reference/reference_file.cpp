@@ -1,0 +1,157 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "reference/reference_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace gloam {
+
+namespace reference {
+namespace {
+
+constexpr std::array<bool Coverage::*, kSeen> kMembers{
+    &Coverage::environment_direct, &Coverage::environment_indirect, &Coverage::local_direct,
+    &Coverage::local_indirect,     &Coverage::emitter_direct,       &Coverage::emitter_indirect};
+
+}  // namespace
+
+const char* nameOf(LightPath path) {
+  constexpr std::array<const char*, kLightPathCount> kNames{
+      "environment_direct", "environment_indirect", "local_direct", "local_indirect",
+      "emitter_direct",     "emitter_indirect",     "seen"};
+  return kNames[std::size_t(path)];
+}
+
+bool isDirect(LightPath path) {
+  return path != kEnvironmentIndirect && path != kLocalIndirect && path != kEmitterIndirect;
+}
+
+bool covers(const Coverage& light, LightPath path) {
+  return path == kSeen || light.*kMembers[std::size_t(path)];
+}
+
+std::string coverageText(const Coverage& light) {
+  std::string text;
+  for (int p = 0; p < kSeen; ++p) {
+    if (covers(light, LightPath(p))) text += (text.empty() ? "" : " ") + std::string(nameOf(LightPath(p)));
+  }
+  return text.empty() ? "none" : text;
+}
+
+bool isPartOf(const Coverage& part, const Coverage& whole) {
+  return std::ranges::all_of(kMembers, [&](auto member) { return !(part.*member) || whole.*member; });
+}
+
+}  // namespace reference
+
+using namespace reference;
+
+namespace {
+
+constexpr const char* kLight = "gloam.light";
+constexpr const char* kSources = "gloam.sources";
+
+const std::string* attribute(const LayeredImage& image, const char* name) {
+  const auto found = image.attributes.find(name);
+  return found == image.attributes.end() ? nullptr : &found->second;
+}
+
+Coverage parseCoverage(const std::string& text, const std::string& place) {
+  Coverage light;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    bool known = word == "none";
+    for (int p = 0; p < kSeen; ++p) {
+      if (word != nameOf(LightPath(p))) continue;
+      light.*kMembers[std::size_t(p)] = known = true;
+    }
+    if (!known) throw Error(place, fmt::format("'{}' is no kind of light", word));
+  }
+  return light;
+}
+
+Coverage both(const Coverage& a, const Coverage& b) {
+  Coverage result;
+  for (const auto member : kMembers) result.*member = a.*member && b.*member;
+  return result;
+}
+
+/// Which sources the scene had of those that were followed; all of them where the file does not say.
+Coverage sourcesOf(const LayeredImage& file, const Coverage& whole, const std::string& place) {
+  const std::string* text = attribute(file, kSources);
+  return text ? both(whole, parseCoverage(*text, place + ": attribute gloam.sources")) : whole;
+}
+
+/// Direct or indirect light of a part: the file's own layer where it is all of that, 0 where it is nothing, else the sum of
+/// the parts' layers.
+Image lightOfPart(const LayeredImage& file, const Coverage& part, const Coverage& there, bool direct,
+                  const std::string& place) {
+  bool all = true, nothing = !direct;  // what is seen is always direct
+  for (int p = 0; p < kSeen; ++p) {
+    if (isDirect(LightPath(p)) != direct || !covers(there, LightPath(p))) continue;
+    (covers(part, LightPath(p)) ? nothing : all) = false;
+  }
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  if (all) return file.image(direct ? "direct" : "indirect", rgb, place);
+  Image sum(file.width, file.height, 3);
+  if (nothing) return sum;
+  if (!file.find(nameOf(kSeen))) {
+    throw Error(place, fmt::format("holds {} in one sum; {} alone is in a file of gloam reference --parts",
+                                   coverageText(there), coverageText(both(part, there))));
+  }
+  for (int p = 0; p < kLightPathCount; ++p) {
+    const LightPath path{p};
+    if (isDirect(path) != direct || !covers(part, path) || !covers(there, path)) continue;
+    const Image layer = file.image(nameOf(path), rgb, place);
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Coverage coverageOf(const LayeredImage& file, const std::string& place) {
+  const std::string* kind = attribute(file, "gloam.kind");
+  const std::string* light = attribute(file, kLight);
+  if (!kind || *kind != "reference" || !light) {
+    throw Error(place,
+                "is no picture by gloam reference: its attributes gloam.kind and gloam.light are missing");
+  }
+  return parseCoverage(*light, place + ": attribute gloam.light");
+}
+
+LayeredImage imageOf(const LayeredImage& file, const Coverage& part, const std::string& place) {
+  const Coverage whole = coverageOf(file, place);
+  if (!isPartOf(part, whole)) {
+    throw Error(place, fmt::format("holds {}; {} was asked for", coverageText(whole), coverageText(part)));
+  }
+  const Coverage there = sourcesOf(file, whole, place);
+  const Image direct = lightOfPart(file, part, there, true, place);
+  const Image indirect = lightOfPart(file, part, there, false, place);
+  Image sum = file.image("", {"R", "G", "B", "A"}, place);
+  if (both(part, there) != there) {
+    for (std::size_t i = 0; i < sum.pixelCount(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c)
+        sum.pixels[4 * i + c] = direct.pixels[3 * i + c] + indirect.pixels[3 * i + c];
+    }
+  }
+  LayeredImage result;
+  result.width = file.width;
+  result.height = file.height;
+  result.add("", {"R", "G", "B", "A"}, sum, ChannelType::kFloat);
+  result.add("direct", {"R", "G", "B"}, direct, ChannelType::kFloat);
+  result.add("indirect", {"R", "G", "B"}, indirect, ChannelType::kFloat);
+  for (const char* name : {"normal", "depth", "albedo", "object"}) {
+    if (const Layer* layer = file.find(name)) result.layers.push_back(*layer);
+  }
+  result.attributes = file.attributes;
+  result.attributes[kLight] = coverageText(part);
+  result.attributes[kSources] = coverageText(both(part, there));
+  result.attributes.erase("gloam.noise");
+  return result;
+}
+
+}  // namespace gloam

@@ -1,0 +1,29 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What a reference picture says of itself: names of its layers and attributes (docs/images.md), and how they are put
+// together and taken apart again.
+#pragma once
+
+#include <string>
+
+#include "reference/path_tracer_state.h"
+
+namespace gloam::reference {
+
+inline constexpr int kMaxBounces = 1000;
+
+/// "environment_direct", …, "seen": layers, and words of the attributes gloam.light and gloam.sources.
+const char* nameOf(LightPath path);
+bool isDirect(LightPath path);  ///< also what is seen
+/// kSeen always.
+bool covers(const Coverage& light, LightPath path);
+/// "environment_direct local_direct", or "none".
+std::string coverageText(const Coverage& light);
+/// True where `part` holds nothing that `whole` does not.
+bool isPartOf(const Coverage& part, const Coverage& whole);
+
+/// The picture so far, of that part of the light. Throws Error where the tracer does not follow it.
+LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool variance, bool parts);
+
+}  // namespace gloam::reference
