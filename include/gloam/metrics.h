@@ -13,14 +13,17 @@ namespace gloam {
 
 struct MetricOptions {
   Image mask;
-  /// For PSNR and SSIM: what counts as white. 0: the largest value of the reference.
+  /// For PSNR and SSIM: what counts as white. 0: the largest value of the reference, or 1 where none is above 0.
   double peak = 0.0;
   /// For FLIP: how many pixels stand for a degree of the eye. 67 is a 0.7 m wide 4K screen seen from 0.7 m, the authors'
   /// default.
   double pixels_per_degree = 67.0206;
+  /// For LDR-FLIP: how both become light of a display. Automatic exposure is found for the reference and holds for both.
+  DisplayOptions display{.tone_map = ToneMap::kAces, .exposure_stops = 0.0f, .auto_exposure = true};
 };
 
-/// All measures at once. Sums are in double precision.
+/// All measures at once. Sums are in double precision. FLIP and SSIM see all of both pictures; a mask says whose errors
+/// are averaged.
 struct Metrics {
   std::size_t pixels = 0;       ///< that were compared
   double max_difference = 0.0;  ///< max |a - b| over pixels and colour channels
@@ -36,7 +39,8 @@ struct Metrics {
   double mean_signed_error = 0.0;      ///< mean (a - b): energy gained (positive) or lost
   double relative_signed_error = 0.0;  ///< the same over the mean of the reference
 };
-Metrics measure(const Image& a, const Image& reference, const MetricOptions& options = {});
+Metrics measure(const Image& a, const Image& reference, const MetricOptions& options = {},
+                const Progress& progress = {});
 
 // The single measures, where one is enough.
 double maxDifference(const Image& a, const Image& reference);
@@ -48,14 +52,17 @@ double meanSignedError(const Image& a, const Image& reference);
 // ---- Difference pictures ----------------------------------------------------------------------------------------------
 
 /// 1/2 + factor (a - b) / 2 of the two pictures as a display shows them (linear 0 to 1 after `display`, encoded as sRGB),
-/// as the papers print differences with factor 2: grey where equal. R, G, B.
+/// as the papers print differences with factor 2: grey where equal. R, G, B linear as writePng takes it. Automatic
+/// exposure is found for the reference and holds for both.
 Image differencePicture(const Image& a, const Image& reference, double factor, const DisplayOptions& display);
-/// |a - b| summed over channels relative to the reference's mean, by a perceptually even colour map (black 0, light at
-/// `top`): R, G, B linear as writePng takes it.
+/// |a - b| summed over channels relative to the reference's mean (summed alike; 1 where that is not above 0), by a
+/// perceptually even colour map (black 0, light at `top`): R, G, B linear as writePng takes it.
 Image falseColor(const Image& a, const Image& reference, double top = 1.0);
 /// Error 0 to 1 of each pixel, one channel.
-Image flipMap(const Image& a, const Image& reference, double pixels_per_degree = 67.0206);
-Image ldrFlipMap(const Image& a_display, const Image& reference_display, double pixels_per_degree = 67.0206);
+Image flipMap(const Image& a, const Image& reference, double pixels_per_degree = 67.0206,
+              const Progress& progress = {});
+Image ldrFlipMap(const Image& a_display, const Image& reference_display, double pixels_per_degree = 67.0206,
+                 const Progress& progress = {});
 /// A map of 0 to 1 in the colours in which FLIP is printed: R, G, B linear as writePng takes it.
 Image magma(const Image& map);
 
