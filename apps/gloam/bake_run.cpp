@@ -3,17 +3,25 @@
 #include "bake_run.h"
 
 #include <fmt/core.h>
+#include <techniques/prt/prt_bake_state.h>
 
 #include <cstdlib>
 #include <optional>
 
-#include "scene_hash.h"
 #include "technique_choice.h"
 
 namespace gloam::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Names the bake that is kept of a scene: changes with anything in it but its environment, which no bake sees, with every
+/// option that changes the result, and with the version of gloam.
+std::string bakeKey(const Scene& scene, const BakeOptions& options) {
+  Fingerprint key = prt::fingerprintOf(scene, options);
+  add(key, std::string(GLOAM_VERSION));
+  return key.text();
+}
 
 /// Where bakes are kept; nothing where there is no home or it cannot be written.
 std::optional<fs::path> cacheFolder() {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "console.h"
 #include "info.h"
 
 namespace gloam::cli {
@@ -90,6 +91,11 @@ Json describeLayers(const std::string& path) {
   Json layers = Json::array();
   for (const Layer& layer : image.layers) layers.push_back(layerJson(layer));
   json["layers"] = std::move(layers);
+  if (!image.attributes.empty()) {
+    Json attributes = Json::object();
+    for (const auto& [name, value] : image.attributes) attributes[singleLine(name)] = singleLine(value);
+    json["attributes"] = std::move(attributes);
+  }
   const Layer* sum = image.find("");
   if (sum != nullptr && sum->channels.size() >= 3 && mayBeEquirectangular(image.width, image.height)) {
     const Image light = image.image("", {"R", "G", "B"}, path);

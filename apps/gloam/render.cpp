@@ -4,10 +4,10 @@
 // gloam render: a scene, light, a technique; a picture, frames or a video.
 #include <fmt/core.h>
 #include <gloam/renderer.h>
-#include <image/tonemap.h>
 
 #include "arguments.h"
 #include "bake_run.h"
+#include "display_choice.h"
 #include "frame_plan.h"
 #include "output.h"
 #include "scene_inputs.h"
@@ -26,9 +26,9 @@ struct RenderChoice {
   ViewChoice view;
   MotionChoice motion;
   TechniqueChoice technique;
-  DisplayOptions display;
-  std::string output, device, layer, tone_map = "aces";
-  bool background = true, use_cache = true;
+  DisplayChoice display;
+  std::string output, device, layer;
+  bool use_cache = true;
 };
 
 std::string defaultOutput(const RenderChoice& choice) {
@@ -66,18 +66,11 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.options.height = choice.view.size.y;
   stage.options.supersample = choice.view.supersample;
   stage.options.technique = stage.technique->name;
-  stage.options.background = choice.background;
+  stage.options.background = choice.display.background;
   stage.options.layers =
       isFrameLayer(choice.layer) || (choice.layer.empty() && choice.output.ends_with(".exr"));
   if (!isFrameLayer(choice.layer)) stage.options.show = choice.layer;
   return stage;
-}
-
-// Automatic exposure is found on the first frame and held, so that a video does not pulse.
-void holdExposure(DisplayOptions& display, const LayeredImage& frame) {
-  if (!display.auto_exposure) return;
-  display.exposure_stops += autoExposureStops(meanLog2Luminance(lightOf(frame, "")));
-  display.auto_exposure = false;
 }
 
 void printResult(const RenderChoice& choice, const Stage& stage, const Renderer& renderer,
@@ -107,7 +100,6 @@ void printResult(const RenderChoice& choice, const Stage& stage, const Renderer&
 
 int runRender(RenderChoice choice, Console& console) {
   if (choice.output.empty()) choice.output = defaultOutput(choice);
-  choice.display.tone_map = choice.tone_map == "none" ? ToneMap::kNone : ToneMap::kAces;
   refuseOverwriting(choice.output, choice.scene.name);
   refuseOverwriting(choice.output, choice.light.environment);
   const std::vector<PlannedFrame> frames = planFrames(choice.motion, choice.view.time_s);
@@ -119,7 +111,7 @@ int runRender(RenderChoice choice, Console& console) {
   renderer.setScene(stage.scene);
   renderer.setEnvironment(stage.environment);
 
-  DisplayOptions display = choice.display;
+  DisplayOptions display = displayOf(choice.display);
   Timings timings;
   Warnings warned;
   const Progress progress = console.progress();
@@ -147,29 +139,6 @@ int runRender(RenderChoice choice, Console& console) {
   return kDone;
 }
 
-void addDisplayOptions(CLI::App& app, RenderChoice& choice) {
-  const auto setExposure = [&choice](const std::string& text) {
-    choice.display.auto_exposure = text == "auto";
-    choice.display.exposure_stops =
-        text == "auto" ? 0.0f : float(parseNumber("--exposure", text, {-50.0, 50.0}));
-  };
-  app.add_option_function<std::string>("--exposure", setExposure,
-                                       "stops (factor 2^STOPS), or found in the first frame")
-      ->type_name("STOPS|auto")
-      ->default_str("0")
-      ->group("Output");
-  addChoice(app, "--tone-map", choice.tone_map, {"none", "aces"},
-            "curve for PNG and video; EXR and HDR stay linear")
-      ->default_str("aces")
-      ->group("Output");
-  app.add_flag("--background,!--no-background", choice.background,
-               "draw the light behind the scene, or leave it clear [on]")
-      ->group("Output");
-  addText(app, "--show", choice.layer, CLI::detail::join(frameLayers(), "|") + "|NAME",
-          "one layer of the frame instead of its light, or any image of the technique by name")
-      ->group("Output");
-}
-
 std::function<int()> declareRender(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<RenderChoice>();
   addSceneOptions(app, choice->scene);
@@ -180,7 +149,10 @@ std::function<int()> declareRender(CLI::App& app, Console& console) {
   addMotionOptions(app, choice->motion);
   addTechniqueOptions(app, choice->technique);
   addDeviceOption(app, choice->device);
-  addDisplayOptions(app, *choice);
+  addDisplayOptions(app, choice->display);
+  addText(app, "--show", choice->layer, CLI::detail::join(frameLayers(), "|") + "|NAME",
+          "one layer of the frame instead of its light, or any image of the technique by name")
+      ->group("Output");
   app.add_flag("--no-cache{false}", choice->use_cache,
                "neither take nor keep the bake of a scene that has none");
   addConsoleOptions(app, console, true);

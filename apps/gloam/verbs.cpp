@@ -6,11 +6,11 @@
 
 namespace gloam::cli {
 
-extern const Verb kRenderVerb, kBakeVerb, kInfoVerb, kListVerb, kSceneVerb, kBenchVerb, kCompletionVerb;
+extern const Verb kRenderVerb, kBakeVerb, kReferenceVerb, kInfoVerb, kListVerb, kSceneVerb, kBenchVerb, kCompletionVerb;
 
 std::span<const Verb* const> verbs() {
   static constexpr const Verb* kVerbs[] = {
-      &kRenderVerb, &kBakeVerb, &kInfoVerb, &kListVerb, &kSceneVerb, &kBenchVerb, &kCompletionVerb,
+      &kRenderVerb, &kBakeVerb, &kReferenceVerb, &kInfoVerb, &kListVerb, &kSceneVerb, &kBenchVerb, &kCompletionVerb,
   };
   return kVerbs;
 }

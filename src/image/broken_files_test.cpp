@@ -32,6 +32,7 @@ class BrokenExr : public test::FileTest {
     for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression)
       for (const int tile : {0, 4}) {
         ExrSample sample{.width = 5, .height = 4, .compression = Imf::Compression(compression), .tile = tile};
+        sample.attributes["owner"] = "x";
         test::writeSample(sample, path("a.exr"));
         files.push_back(bytesOf(path("a.exr")));
       }

@@ -4,6 +4,7 @@
 // A look at an EXR file's headers before the library takes memory by what they claim.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <istream>
 #include <string>
@@ -35,6 +36,9 @@ struct ExrPart {
   bool has_tiles = false;  ///< the attribute stands there
   bool deep = false;
 };
+
+// What is kept of a header's string attributes; longer ones and further ones are left out.
+inline constexpr std::size_t kMaxStringAttributes = 256, kMaxStringAttributeBytes = 4096;
 
 /// Reads all headers and checks every size in them against the file's length. Throws Error(place, what): not
 /// an EXR file, an attribute that is longer than the file, windows, tiles or chunk tables that the file

@@ -10,6 +10,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -130,6 +131,19 @@ glm::mat3 rec709FromHeader(const Imf::Header& header, const std::string& place) 
   return matrix;
 }
 
+// "name" and "type" belong to the format.
+std::map<std::string, std::string> stringAttributes(const Imf::Header& header) {
+  std::map<std::string, std::string> attributes;
+  for (auto entry = header.begin(); entry != header.end(); ++entry) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&entry.attribute());
+    const std::string name = entry.name();
+    if (!text || name == "name" || name == "type" || text->value().size() > kMaxStringAttributeBytes)
+      continue;
+    if (attributes.size() < kMaxStringAttributes) attributes.emplace(name, text->value());
+  }
+  return attributes;
+}
+
 Parsed parse(const std::filesystem::path& path, const Choose& choose) {
   const std::string place = path.string();
   std::uint64_t size = 0;
@@ -152,6 +166,7 @@ Parsed parse(const std::filesystem::path& path, const Choose& choose) {
   Parsed result;
   result.rec709_from_stored = rec709FromHeader(part.header(), place);
   result.picture.layers = emptyLayers(chosen);
+  result.picture.attributes = stringAttributes(part.header());
   part.setFrameBuffer(allocate(result.picture.layers, flat->data));
   part.readPixels(flat->data.min_y, flat->data.max_y);
   fitToDisplay(result.picture, *flat, place);

@@ -11,6 +11,7 @@
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <ImfTiledOutputPart.h>
 #include <half.h>
 
@@ -44,6 +45,8 @@ Imf::Header headerOf(const ExrSample& sample, const std::string& name) {
     header.channels().insert(channel, Imf::Channel(typeOf(sample), sampling, sampling));
   }
   if (sample.chromaticities) Imf::addChromaticities(header, *sample.chromaticities);
+  for (const auto& [attribute, value] : sample.attributes)
+    header.insert(attribute, Imf::StringAttribute(value));
   return header;
 }
 

@@ -8,6 +8,7 @@
 #include <ImfCompression.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct ExrSample {
   int tile = 0;               ///< 0: scanlines
   int sampling = 1;           ///< of the last channel
   std::optional<Imf::Chromaticities> chromaticities;
+  std::map<std::string, std::string> attributes;
 };
 
 /// Value of the c-th channel at (x, y) of the data window: an integer, exact in every type and close in lossy codings.

@@ -86,6 +86,48 @@ TEST_F(Exr, LayersOfARenderSurvive) {
             std::string::npos);
 }
 
+TEST_F(Exr, AttributesTravelAlong) {
+  LayeredImage image;
+  image.add("", {"R", "G", "B"}, test::samplePicture(3, 2, 3));
+  image.attributes = {{"gloam.bounces", "1"},
+                      {"empty", ""},
+                      {"a name of more than thirty-one characters", "x"},
+                      {"lines", std::string("a\nb\x1b[31m\0c", 9)}};
+  writeExr(image, path("a.exr"));
+  EXPECT_EQ(readExr(path("a.exr")).attributes, image.attributes);
+  EXPECT_EQ(readImage(path("a.exr")).pixels, image.layers[0].pixels);
+
+  // What the format calls so, and what would not come back, is not written.
+  const auto refused = [&](const std::string& name, const std::string& value) {
+    LayeredImage other = image;
+    other.attributes[name] = value;
+    return errorOf([&] { writeExr(other, path("b.exr")); });
+  };
+  for (const char* name : {"channels", "compression", "dataWindow", "chromaticities", "type", "tiles", ""})
+    EXPECT_NE(refused(name, "x").find("taken"), std::string::npos) << name;
+  EXPECT_NE(refused(std::string(256, 'n'), "x").find("too long"), std::string::npos);
+  EXPECT_NE(refused("long", std::string(4097, 'x')).find("4097 bytes"), std::string::npos);
+  EXPECT_EQ(refused("long", std::string(4096, 'x')), "");
+  for (int i = 0; i < 300; ++i) image.attributes["n" + std::to_string(i)] = "x";
+  EXPECT_NE(errorOf([&] { writeExr(image, path("c.exr")); }).find("304 attributes"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("c.exr")));
+}
+
+TEST_F(Exr, AttributesOfOthersAreHeldInBounds) {
+  ExrSample sample;
+  sample.attributes = {{"owner", "someone"}, {"long", std::string(100000, 'x')}};
+  for (int i = 0; i < 400; ++i) sample.attributes["z" + std::to_string(i)] = "x";
+  test::writeSample(sample, path("a.exr"));
+  const auto attributes = readExr(path("a.exr")).attributes;
+  EXPECT_EQ(attributes.at("owner"), "someone");
+  EXPECT_EQ(attributes.count("long"), 0u);
+  EXPECT_EQ(attributes.size(), 256u);
+  // The first flat part's, without its own name and type.
+  sample.attributes = {{"owner", "someone"}};
+  test::writeSeveralParts(sample, path("b.exr"));
+  EXPECT_EQ(readExr(path("b.exr")).attributes, sample.attributes);
+}
+
 TEST_F(Exr, EveryCompressionIsRead) {
   for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression)
     for (const char* type : {"half", "float"})

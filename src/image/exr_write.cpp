@@ -7,6 +7,7 @@
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <half.h>
 
@@ -16,6 +17,7 @@
 #include <set>
 
 #include "image/atomic_file.h"
+#include "image/exr_guard.h"
 #include "image/formats.h"
 #include "image/limits.h"
 
@@ -52,9 +54,34 @@ void checkLayers(const LayeredImage& image, const std::filesystem::path& path) {
   }
 }
 
+// What the format itself calls so, whether it stands in this header or not.
+bool isReserved(const Imf::Header& header, const std::string& name) {
+  static const std::set<std::string> kOthers{"chromaticities", "chunkCount", "name",    "preview",
+                                             "tiles",          "type",       "version", "view"};
+  return header.find(name) != header.end() || kOthers.count(name) > 0;
+}
+
+// Held to what the reader takes, so that what is written comes back. Throws as the library does: writeExr names the file.
+void insertAttributes(const LayeredImage& image, Imf::Header& header) {
+  if (image.attributes.size() > kMaxStringAttributes)
+    throw std::invalid_argument(
+        fmt::format("{} attributes; at most {} are kept", image.attributes.size(), kMaxStringAttributes));
+  for (const auto& [name, value] : image.attributes) {
+    constexpr std::size_t kMaxName = 255;
+    if (name.empty() || name.size() > kMaxName || isReserved(header, name))
+      throw std::invalid_argument(
+          fmt::format("attribute '{}': the name is empty, too long or taken", name.substr(0, 64)));
+    if (value.size() > kMaxStringAttributeBytes)
+      throw std::invalid_argument(fmt::format("attribute '{}': {} bytes; at most {} are kept", name,
+                                              value.size(), kMaxStringAttributeBytes));
+    header.insert(name, Imf::StringAttribute(value));
+  }
+}
+
 void writeLayers(const LayeredImage& image, Imf::OStream& stream) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  insertAttributes(image, header);
   Imf::FrameBuffer buffer;
   std::list<std::vector<half>> halfs;  // kept until the pixels are written
   for (const Layer& layer : image.layers) {

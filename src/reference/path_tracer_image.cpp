@@ -4,6 +4,8 @@
 // Sums become pictures: means of samples, by path, and what the file says of itself.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reference/reference_file.h"
 
 namespace gloam::reference {

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <gloam/bake.h>
 #include <gloam/sh.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
-#include <thread>
+#include <optional>
 
+#include "scene/threads.h"
 #include "scene/transforms.h"
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_meter.h"
@@ -28,10 +27,22 @@ void checkRange(const char* name, int value, int low, int high) {
   }
 }
 
+void checkGlossyOptions(const BakeOptions& options) {
+  if (options.glossy == GlossyMeshes::kNone) return;
+  if (options.glossy_order != 0) checkRange("glossy_order", options.glossy_order, 3, 6);
+  const int most = std::min(options.order, options.glossy_order > 0 ? options.glossy_order : options.order);
+  if (options.glossy_light_order != 0) checkRange("glossy_light_order", options.glossy_light_order, 3, most);
+  const float exponent = options.glossy_exponent;
+  if (exponent != 0.0f && !(exponent >= 1.0f && exponent <= 1000.0f)) {
+    throw Error("bake", fmt::format("glossy_exponent is {}; expected 1 to 1000, or 0", exponent));
+  }
+}
+
 void checkOptions(const BakeOptions& options) {
   checkRange("order", options.order, 3, 6);
   checkRange("directions", options.directions, 256, 65536);
   checkRange("threads", options.threads, 0, 1024);
+  checkGlossyOptions(options);
   if (options.kind != TransferKind::kInterreflected) return;
   checkRange("bounces", options.bounces, 1, 64);
   checkRange("bounce_directions", options.bounce_directions, 64, 65536);
@@ -58,15 +69,13 @@ void checkBakeable(const Scene& scene, const PosedScene& posed) {
                          : "the scene has no triangles to bake");
 }
 
-int coresUsed(const BakeOptions& options) {
-  return options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 // What each pass costs in shadow rays: bounce rays are fewer, but closest hits and their gathering take about four times
 // as long as shadow rays; a third of the hemisphere is blocked in a common scene; later bounces find their hits kept.
-std::vector<double> passWork(const DirectionTables& tables, int bounces) {
-  std::vector<double> work(std::size_t(bounces) + 1, 4.0 / 3.0 * double(tables.bounce_tiles));
-  for (std::size_t b = 2; b < work.size(); ++b) work[b] *= 0.25;
+// Matrices take several times as long to gather as rays to trace.
+std::vector<double> passWork(const DirectionTables& tables, int bounces, double glossy_share) {
+  const double trace = 4.0 / 3.0 * double(tables.bounce_tiles), gather = 8.0 * glossy_share * trace;
+  std::vector<double> work(std::size_t(bounces) + 1, trace + gather);
+  for (std::size_t b = 2; b < work.size(); ++b) work[b] = 0.25 * trace + gather;
   work[0] = double(tables.tiles);
   return work;
 }
@@ -100,12 +109,19 @@ void runPasses(BakePasses& passes, BakeState& state, BakeMeter& meter, BakeRepor
     const auto start = now();
     if (state.pass == 0) {
       report.rays = runPass(state, meter, [&](std::size_t b) { return passes.shadowBlock(b, state); });
-      passes.fillHidden(state, std::size_t(state.coefficients), state.direct);
+      passes.fillHidden(state, {state.direct, std::size_t(state.coefficients)});
+      if (!state.glossy.empty()) {
+        passes.fillHidden(state,
+                          {state.glossy.visibility, state.glossy.layout.visibilityCount(), &state.glossy});
+      }
       report.first_pass_s = since(start);
     } else {
       report.bounce_rays +=
           runPass(state, meter, [&](std::size_t b) { return passes.bounceBlock(b, state); });
-      passes.fillHidden(state, state.row, state.next);
+      passes.fillHidden(state, {state.next, state.row});
+      if (!state.glossy.empty()) {
+        passes.fillHidden(state, {state.glossy.next, state.glossy.layout.matrixSize(), &state.glossy});
+      }
       report.bounces_s += since(start);
     }
     state.finishPass();
@@ -133,6 +149,7 @@ void writeVertex(const BakeState& state, std::size_t point, const sh::Rotation& 
 
 void attachTransfer(Scene& scene, const PosedScene& posed, const BakePoints& points, const BakeState& state,
                     const BakeOptions& options) {
+  const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
   const std::size_t coefficients = std::size_t(state.coefficients);
   for (std::size_t i = 0; i < posed.instances.size(); ++i) {
     const Instance& instance = posed.instances[i];
@@ -141,7 +158,8 @@ void attachTransfer(Scene& scene, const PosedScene& posed, const BakePoints& poi
     auto transfer = std::make_shared<Transfer>();
     transfer->order = options.order;
     transfer->bounces = state.bounces;
-    transfer->directions = (options.directions + kTileSize - 1) / kTileSize * kTileSize;
+    const bool sampled = options.kind != TransferKind::kUnshadowed;
+    transfer->directions = sampled ? (options.directions + kTileSize - 1) / kTileSize * kTileSize : 0;
     transfer->direct.resize(mesh.vertexCount() * coefficients);
     if (state.bounces > 0) transfer->indirect.resize(mesh.vertexCount() * coefficients * 3);
     const auto object_from_world =
@@ -150,6 +168,12 @@ void attachTransfer(Scene& scene, const PosedScene& posed, const BakePoints& poi
       const std::uint32_t point = points.point_of_vertex[points.first_vertex[i] + v];
       if (point != BakePoints::kNoPoint) writeVertex(state, point, object_from_world, v, *transfer);
     });
+    if (glossy[i]) {
+      const glm::mat3 turn = glm::transpose(rotationFactor(instance.world_from_object));
+      writeGlossy(state.glossy, points, points.first_vertex[i], mesh.vertexCount(),
+                  sh::HighRotation(state.glossy.layout.visibilityOrder(), turn), options.glossy_exponent,
+                  transfer->glossy);
+    }
     mesh.transfer = std::move(transfer);
   }
 }
@@ -159,6 +183,10 @@ void bakeUnshadowed(const BakePoints& points, const BakeOptions& options, BakeSt
   for (std::size_t p = 0; p < points.size(); ++p) {
     const sh::Sh unshadowed = sh::rotateZonal(cosine, points.normals[p]);
     std::copy_n(unshadowed.c.data(), state.coefficients, &state.direct[p * std::size_t(state.coefficients)]);
+    if (!state.glossy.has(p)) continue;
+    const std::size_t count = state.glossy.layout.visibilityCount();
+    sh::hemisphereHigh(state.glossy.layout.visibilityOrder(), points.normals[p],
+                       {&state.glossy.visibility[state.glossy.first_row[p] * count], count});
   }
 }
 
@@ -167,12 +195,19 @@ void bakeShadowed(const Scene& scene, const PosedScene& posed, const BakePoints&
                   BakeState& state, BakeReport& report) {
   Fingerprint fingerprint;
   if (!options.checkpoint.empty()) {
-    fingerprint = fingerprintOf(scene, posed, points, options);
+    fingerprint = fingerprintOf(scene, points, options);
     report.resumed = readCheckpoint(options.checkpoint, fingerprint, state);
   }
   const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true}, progress);
-  BakePasses passes(scene, posed, points, tracer, tables);
-  BakeMeter meter(progress, options, fingerprint, state, passWork(tables, state.bounces));
+  std::optional<GlossyTables> glossy;
+  if (!state.glossy.empty()) glossy.emplace(state.glossy.layout, tables);
+  if (glossy) {
+    glossy->instances = glossyInstances(scene, posed, options.glossy);
+    glossy->exponent = options.glossy_exponent;
+  }
+  BakePasses passes(scene, posed, points, tracer, tables, glossy ? &*glossy : nullptr);
+  const double glossy_share = double(state.glossy.rows()) / double(std::max<std::size_t>(1, points.size()));
+  BakeMeter meter(progress, options, fingerprint, state, passWork(tables, state.bounces, glossy_share));
   runPasses(passes, state, meter, report);
   std::error_code ignored;
   if (!options.checkpoint.empty()) std::filesystem::remove(options.checkpoint, ignored);
@@ -184,8 +219,11 @@ BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
   checkOptions(options);
   const PosedScene posed = pose(scene, options.time_s);
   BakeEstimate estimate;
-  for (const Instance& instance : posed.instances) {
+  const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
+  for (std::size_t i = 0; i < posed.instances.size(); ++i) {
+    const Instance& instance = posed.instances[i];
     if (instance.deformed()) continue;
+    if (glossy[i]) estimate.glossy_vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
     estimate.vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
     estimate.triangles += scene.meshes[std::size_t(instance.mesh)].triangleCount();
   }
@@ -196,14 +234,24 @@ BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
   }
   const std::size_t coefficients = std::size_t(tables.coefficients);
   const std::size_t colors = options.kind == TransferKind::kInterreflected ? 4 : 1;
-  const std::size_t transfer = estimate.vertices * coefficients * colors * sizeof(float);
+  const GlossyLayout layout = glossyLayout(options);
+  const bool bounces = options.kind == TransferKind::kInterreflected;
+  const std::size_t matrices =
+      layout.visibilityCount() + (bounces ? std::size_t(3 * layout.lightCount() * layout.fieldCount()) : 0);
+  const std::size_t transfer =
+      (estimate.vertices * coefficients * colors + estimate.glossy_vertices * matrices) * sizeof(float);
   // Per triangle: the hierarchy (130 bytes, measured), the points' own lists; per vertex: positions, normals, tangents,
   // texture coordinates of the unique copy and the table that welds.
   const std::size_t hits = estimate.vertices * std::size_t(tables.bounce_tiles) * kTileSize / 2;
-  const std::size_t kept = bouncesOf(options) > 1 ? std::min(kKeptHitsBytes, hits * sizeof(GatheredHit)) : 0;
-  estimate.memory_bytes = kept + bakeStateBytes(estimate.vertices, tables, bouncesOf(options)) +
-                          tables.memoryBytes() + transfer + estimate.triangles * (130 + 40) +
-                          estimate.vertices * (60 + 90);
+  const std::size_t hit = estimate.glossy_vertices > 0 ? sizeof(GlossyHit) : sizeof(GatheredHit);
+  const std::size_t kept = bouncesOf(options) > 1 ? std::min(kKeptHitsBytes, hits * hit) : 0;
+  if (estimate.glossy_vertices > 0) {
+    estimate.memory_bytes = estimate.glossy_vertices * glossyStateBytes(layout, bounces) +
+                            GlossyTables::memoryBytes(layout, tables.tiles);
+  }
+  estimate.memory_bytes += kept + bakeStateBytes(estimate.vertices, tables, bouncesOf(options)) +
+                           tables.memoryBytes() + transfer + estimate.triangles * (130 + 40) +
+                           estimate.vertices * (60 + 90);
   estimate.file_bytes = transfer + estimate.triangles * 12 + estimate.vertices * 48;
   for (const Texture& texture : scene.textures) estimate.file_bytes += texture.rgba.size() / 2;
   return estimate;
@@ -219,19 +267,22 @@ Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progres
   const DirectionTables tables =
       makeDirectionTables(options.order, options.directions, bounceDirectionsOf(options));
   BakeState state = makeBakeState(points.size(), tables, bouncesOf(options));
+  state.glossy = makeGlossyState(unique, posed, points, options);
   BakeReport local;
   BakeReport& done = report ? *report : local;
   done = {};
   done.vertices = points.size();
-  // More threads than cores are given if asked for: that the result does not depend on them has to be testable.
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    std::size_t(coresUsed(options)));
-  tbb::task_arena(coresUsed(options)).execute([&] {
+  withThreads(options.threads, [&] {
     if (options.kind == TransferKind::kUnshadowed) {
       bakeUnshadowed(points, options, state);
     } else {
       bakeShadowed(unique, posed, points, tables, options, progress, state, done);
     }
+    for (std::vector<float>* unneeded :
+         {&state.previous, &state.next, &state.glossy.previous, &state.glossy.next})
+      std::vector<float>().swap(*unneeded);
+    done.glossy_points = state.glossy.rows();
+    done.cheap_error = cheapError(state.glossy);
     attachTransfer(unique, posed, points, state, options);
   });
   return unique;

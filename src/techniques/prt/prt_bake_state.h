@@ -11,8 +11,10 @@
 #include <memory>
 #include <vector>
 
+#include "scene/scene_fingerprint.h"
 #include "techniques/prt/prt_bake_directions.h"
 #include "techniques/prt/prt_bake_points.h"
+#include "techniques/prt/prt_glossy_state.h"
 
 namespace gloam::prt {
 
@@ -32,6 +34,8 @@ struct RaySite {
   glm::vec3 origin{0.0f};
   float blocked_cosine = 0.0f;  ///< integral of max(0, n.s) over blocked directions, 0 to pi
   Place place = Place::kOpen;
+  float blocked_solid_angle =
+      0.0f;  ///< of directions above the horizon, 0 to 2 pi; kept where there are matrices
 };
 
 struct BakeState {
@@ -50,6 +54,7 @@ struct BakeState {
       blocked;  ///< [point][bounce tile]: directions of bounce passes that meet something
   std::vector<float> previous, next;  ///< [point] rows: M^{b-1} and M^b
   std::vector<float> indirect;        ///< [point] rows: sum of finished M^b
+  GlossyState glossy;                 ///< matrices, of some of the points
 
   std::size_t blocksDone() const;
   std::size_t blockBegin(std::size_t block) const { return block * kBlockSize; }
@@ -62,23 +67,10 @@ BakeState makeBakeState(std::size_t points, const DirectionTables& tables, int b
 /// What makeBakeState will take.
 std::size_t bakeStateBytes(std::size_t points, const DirectionTables& tables, int bounces);
 
-/// 128 bits that tell a bake from others: geometry, materials, textures, options, instruction set.
-struct Fingerprint {
-  std::uint64_t words[2] = {0x243f6a8885a308d3ull, 0x13198a2e03707344ull};
-  void add(const void* bytes, std::size_t size);
-  template <class T>
-  void addVector(const std::vector<T>& values) {
-    addValue(values.size());
-    add(values.data(), values.size() * sizeof(T));
-  }
-  template <class T>
-  void addValue(const T& value) {
-    add(&value, sizeof value);
-  }
-  bool operator==(const Fingerprint&) const = default;
-};
-Fingerprint fingerprintOf(const Scene& scene, const PosedScene& posed, const BakePoints& points,
-                          const BakeOptions& options);
+/// All of the scene and all options that change what a bake makes of it.
+Fingerprint fingerprintOf(const Scene& scene, const BakeOptions& options);
+/// The same with the points, which this version of the baker made, and the instruction set: of a bake under way.
+Fingerprint fingerprintOf(const Scene& scene, const BakePoints& points, const BakeOptions& options);
 
 /// Writes all finished blocks, beside the target and then renamed. May run while other blocks are worked on.
 void writeCheckpoint(const std::filesystem::path& path, const Fingerprint& fingerprint,
