@@ -6,7 +6,10 @@
 
 #include <cstdio>
 
+#include "math/sh_exp_errors.h"
+
 int main() {
   std::fputs(gloam::sh::benchTable(gloam::sh::bench()).c_str(), stdout);
+  std::fputs(gloam::sh::expErrorTable(gloam::sh::expErrors()).c_str(), stdout);
   return 0;
 }

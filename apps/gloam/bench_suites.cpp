@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <math/sh_batch.h>
 #include <math/sh_bench.h>
+#include <math/sh_exp_errors.h>
 #include <techniques/prt/prt_bake_bench.h>
 
 #include <thread>
@@ -16,11 +17,38 @@
 namespace gloam::cli {
 namespace {
 
+/// Errors are parts of full visibility.
+Json exponentialErrors(const std::vector<sh::ExpErrorRow>& rows) {
+  Json json = Json::array();
+  for (const sh::ExpErrorRow& row : rows) {
+    json.push_back({{"order", row.order},
+                    {"arrangement", sh::arrangementName(row.arrangement)},
+                    {"spheres", row.blockers},
+                    {"norm", row.norm},
+                    {"products", {{"hybrid", row.hybrid_products}, {"quadratic", row.quadratic_products}}},
+                    {"against_numeric",
+                     {{"series4", row.series4},
+                      {"series9", row.series9},
+                      {"linear", row.linear},
+                      {"hybrid", row.hybrid},
+                      {"quadratic", row.quadratic}}},
+                    {"against_visibility",
+                     {{"numeric", row.visible_numeric},
+                      {"pointwise", row.visible_pointwise},
+                      {"product", row.visible_product},
+                      {"linear", row.visible_linear},
+                      {"hybrid", row.visible_hybrid},
+                      {"quadratic", row.visible_quadratic}}}});
+  }
+  return json;
+}
+
 int benchSphericalHarmonics(const std::string&, Console& console) {
   const std::vector<sh::BenchRow> rows = sh::bench(9, 0.01, console.progress());
+  const std::vector<sh::ExpErrorRow> errors = sh::expErrors(console.progress());
   console.endProgress();
   if (!console.json) {
-    fmt::print("{}", sh::benchTable(rows));
+    fmt::print("{}\n{}", sh::benchTable(rows), sh::expErrorTable(errors));
     return kDone;
   }
   Json json = Json::array();
@@ -32,7 +60,9 @@ int benchSphericalHarmonics(const std::string&, Console& console) {
                     {"bar_ns", row.bar_ns > 0.0 ? Json(row.bar_ns) : Json(nullptr)},
                     {"bar_source", row.bar_source}});
   }
-  console.print(jsonText({{"device", fmt::format("CPU, one thread, {}", sh::simdTarget())}, {"rows", json}}));
+  console.print(jsonText({{"device", fmt::format("CPU, one thread, {}", sh::simdTarget())},
+                          {"rows", json},
+                          {"exponential_errors", exponentialErrors(errors)}}));
   return kDone;
 }
 

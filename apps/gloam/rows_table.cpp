@@ -31,10 +31,12 @@ constexpr Row kSphericalHarmonics[] = {
      kYes, "", "gloam bench sh", "math: ShProduct"},
     {"SH-7",
      "Logarithm of a function through its product matrix, with clamped eigenvalues; tabulated for zonal "
-     "visibility"},
+     "visibility",
+     kYes, "", "gloam bench sh", "math: ShLog"},
     {"SH-8",
      "Exponential of a function: series, optimal linear, and the hybrid of scaling and squaring, each with "
-     "its error"},
+     "its error",
+     kYes, "", "gloam bench sh", "math: ShExp, ExpTwins"},
     {"SH-9", "Windows against ringing: Hann, Lanczos, and the least that keeps a function non-negative", kYes,
      "", "gloam render builtin:spheres --env sky:noon",
      "math: ShWindow; irradiance: AutoWindowKeepsLightNonNegative"},

@@ -12,6 +12,7 @@
 
 #include "math/sampling.h"
 #include "math/sh_batch.h"
+#include "math/sh_exp_errors.h"
 
 namespace gloam::sh {
 namespace {
@@ -24,7 +25,25 @@ struct Data {
   std::vector<float> x, y, z, f, g, out;
   std::vector<glm::mat3> matrices;
   std::vector<Sh> single_f, single_g, single_out;
+  /// Sums of the logs of 1 to 40 spheres, by order - 3: planes, and one by one.
+  std::array<std::vector<float>, 4> log_planes;
+  std::array<std::vector<Sh>, 4> logs;
 };
+
+/// Pixels near one another have nearly the same number of spheres: so have neighbours here.
+void makeLogs(Data& data, int order) {
+  std::vector<Sh>& logs = data.logs[static_cast<std::size_t>(order - 3)];
+  std::vector<float>& planes = data.log_planes[static_cast<std::size_t>(order - 3)];
+  const LogBlockerTable table = makeLogBlockerTable(order, 64);
+  const auto size = static_cast<std::size_t>(coefficientCount(order));
+  for (const int blockers : {1, 4, 16, 40})
+    for (const Arrangement arrangement : {Arrangement::kScattered, Arrangement::kBody})
+      for (const auto& set : randomBlockers(arrangement, blockers, kItems / 8, 3))
+        logs.push_back(sumOfLogs(table, set));
+  planes.resize(kStride * size);
+  for (std::size_t k = 0; k < kItems; ++k)
+    for (std::size_t i = 0; i < size; ++i) planes[i * kStride + k] = logs[k].c[i];
+}
 
 Data makeData() {
   Data data;
@@ -45,6 +64,7 @@ Data makeData() {
     for (float& value : data.single_f[i].c) value = random.next() - 0.5f;
   }
   data.single_g = data.single_out = data.single_f;
+  for (int order = 3; order <= kMaxOrder; ++order) makeLogs(data, order);
   return data;
 }
 
@@ -60,6 +80,45 @@ void eachSingle(Data& data, int order, const std::function<Sh(Data&, std::size_t
     data.single_f[i].order = data.single_g[i].order = order;
     data.single_out[i] = one(data, i);
   }
+}
+
+/// Over one sum of logs after the other.
+std::function<void(Data&, int)> eachLog(Sh (*one)(const Sh&)) {
+  return [one](Data& d, int order) {
+    const std::vector<Sh>& logs = d.logs[static_cast<std::size_t>(order - 3)];
+    for (std::size_t i = 0; i < kItems; ++i) d.single_out[i] = one(logs[i]);
+  };
+}
+
+std::vector<Routine> logRoutines() {
+  return {
+      {"exp HYB",
+       [](Data& d, int order) {
+         expHybridMany(order, kItems, d.log_planes[static_cast<std::size_t>(order - 3)], d.out, kStride);
+       },
+       {},
+       ""},
+      {"exp quadratic",
+       [](Data& d, int order) {
+         expQuadraticMany(order, kItems, d.log_planes[static_cast<std::size_t>(order - 3)], d.out, kStride);
+       },
+       {},
+       ""},
+      {"exp PS 4, one", eachLog([](const Sh& f) { return expSeries(f, 4); }), {}, ""},
+      {"exp PS 9, one", eachLog([](const Sh& f) { return expSeries(f, 9); }), {}, ""},
+      {"exp OL, one", eachLog(expLinear), {}, ""},
+      {"exp HYB, one", eachLog(expHybrid), {}, ""},
+      {"exp quad, one", eachLog(expQuadratic), {}, ""},
+      {"log, one",
+       eachLog([](const Sh& f) {
+         Sh positive(f.order);  // 1 and a little: any function does
+         positive[0] = 3.5449077f;
+         for (int i = 1; i < f.size(); ++i) positive[i] = 0.05f * f[i];
+         return logarithm(positive);
+       }),
+       {},
+       ""},
+  };
 }
 
 std::vector<Routine> routines() {
@@ -124,7 +183,8 @@ std::vector<BenchRow> bench(int runs, double seconds, const Progress& progress) 
     throw Error("bench sh", "expected at least one run of at least 0 seconds");
   Data data = makeData();
   std::vector<BenchRow> rows;
-  const std::vector<Routine> all = routines();
+  std::vector<Routine> all = routines();
+  for (Routine& routine : logRoutines()) all.push_back(std::move(routine));
   for (const Routine& routine : all)
     for (int order = 3; order <= kMaxOrder; ++order) {
       progress.report(static_cast<double>(rows.size()) / static_cast<double>(4 * all.size()), routine.name);
