@@ -5,19 +5,23 @@
 // by its mean times its solid angle, a place within it by the bilinear function itself: so the density follows the light,
 // but for the change of the cosine within a row. The half cells at the poles are constant upward and are sampled by solid
 // angle. The density is importance / total / cos(elevation) times a factor of the row.
+//
+// Random places of a large picture are far away in memory. So the first choice is among blocks of 4 x 4 cells, from tables
+// small enough to stay near; all else follows from the block's own texels, which are fetched while paths do something else.
 #include "reference/environment_sampler.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/sampling.h"
-#include "reference/sampler.h"
+#include "reference/angles.h"
 #include "scene/environment.h"
 
 namespace gloam::reference {
 namespace {
 
 constexpr float kPi = sampling::kPi;
+constexpr double kPiDouble = 3.14159265358979323846;
 // A projection is smooth: this grid follows it well. A tenth of all samples is spread evenly, so that nothing is missed where
 // it changes its sign between two texels.
 constexpr int kProjectionWidth = 128, kProjectionHeight = 64;
@@ -38,7 +42,7 @@ float importanceOf(const glm::vec3& radiance) {
 // Sine of the elevation at which row r of cells begins, r = 0 … height + 1, from the top down.
 double rowSine(int r, int height) {
   const double y = std::clamp(double(r), 0.5, double(height) + 0.5);
-  return std::cos((y - 0.5) / height * 3.14159265358979323846);
+  return std::cos((y - 0.5) / height * kPiDouble);
 }
 
 }  // namespace
@@ -50,7 +54,8 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment, int order
   } else {
     fillPixels(environment);
   }
-  finish();
+  fillRows();
+  fillBlocks();
 }
 
 void EnvironmentSampler::fillPixels(const Environment& environment) {
@@ -96,95 +101,143 @@ void EnvironmentSampler::fillProjection(const Environment& environment, int orde
     for (glm::vec4& texel : texels_) texel.w += kEvenShare * float(mean);
 }
 
-void EnvironmentSampler::finish() {
-  std::vector<float> cells, row_weights;
-  cells.resize(std::size_t(width_));
-  row_weights.resize(std::size_t(height_) + 1);
-  rows_.reserve(row_weights.size());
-  double total = 0.0;
-  for (int r = 0; r <= height_; ++r) {
-    const glm::vec4* upper = &texels_[std::size_t(r) * std::size_t(width_ + 1)];
-    const glm::vec4* lower = upper + width_ + 1;
-    double sum = 0.0;
-    for (int c = 0; c < width_; ++c) {
-      cells[std::size_t(c)] = 0.25f * (upper[c].w + upper[c + 1].w + lower[c].w + lower[c + 1].w);
-      sum += double(cells[std::size_t(c)]);
-    }
-    rows_.emplace_back(cells);
-    const double solid_angle = 2.0 * double(kPi) / width_ * (rowSine(r, height_) - rowSine(r + 1, height_));
-    row_weights[std::size_t(r)] = float(sum * solid_angle);
-    total += sum * solid_angle;
-  }
-  marginal_ = Distribution(row_weights);
+void EnvironmentSampler::fillRows() {
   const float half_angle = std::sin(0.25f * kPi / float(height_));
   polar_height_ = 2.0f * half_angle * half_angle;
-  row_density_.assign(row_weights.size(), 0.0f);
   for (int r = 0; r <= height_; ++r) {
+    const double sines = rowSine(r, height_) - rowSine(r + 1, height_);
     const bool pole = r == 0 || r == height_;
-    const double step = double(kPi) / height_;
-    const double factor = pole ? 1.0 : (rowSine(r, height_) - rowSine(r + 1, height_)) / step;
-    if (total > 0.0) row_density_[std::size_t(r)] = float(factor / total);
+    rows_.push_back(
+        {float(2.0 * kPiDouble / width_ * sines), float(pole ? 1.0 : sines * height_ / kPiDouble)});
   }
 }
 
-glm::vec4 EnvironmentSampler::interpolated(const Place& place) const {
-  const glm::vec4* upper =
-      &texels_[std::size_t(place.cell_y) * std::size_t(width_ + 1) + std::size_t(place.cell_x)];
-  const glm::vec4* lower = upper + width_ + 1;
-  const glm::vec4 left = upper[0] + (lower[0] - upper[0]) * place.y;
-  const glm::vec4 right = upper[1] + (lower[1] - upper[1]) * place.y;
-  return left + (right - left) * place.x;
+void EnvironmentSampler::fillBlocks() {
+  block_columns_ = (width_ + kBlock - 1) / kBlock;
+  const int block_rows = (height_ + kBlock) / kBlock;
+  std::vector<float> row_weights;
+  double total = 0.0;
+  for (int block_row = 0; block_row < block_rows; ++block_row) {
+    std::vector<double> sums(std::size_t(block_columns_), 0.0);
+    for (int r = block_row * kBlock; r < std::min((block_row + 1) * kBlock, height_ + 1); ++r) {
+      for (int c = 0; c < width_; ++c) {
+        const glm::vec4 *upper = texel(c, r), *lower = texel(c, r + 1);
+        sums[std::size_t(c / kBlock)] +=
+            0.25 * (double(upper[0].w) + double(upper[1].w) + double(lower[0].w) + double(lower[1].w)) *
+            double(rows_[std::size_t(r)].solid_angle);
+      }
+    }
+    double row_sum = 0.0;
+    std::vector<float> weights;
+    for (const double sum : sums) {
+      row_sum += sum;
+      weights.push_back(float(sum));
+      lit_.push_back(sum > 0.0 ? 1 : 0);
+    }
+    blocks_.emplace_back(weights);
+    row_weights.push_back(float(row_sum));
+    total += row_sum;
+  }
+  block_rows_ = Distribution(row_weights);
+  for (Row& row : rows_) row.density = total > 0.0 ? float(double(row.density) / total) : 0.0f;
 }
 
-EnvironmentSampler::Light EnvironmentSampler::lightAt(const Place& place, const glm::vec3& direction,
-                                                      float cos_elevation) const {
-  const glm::vec4 light = interpolated(place);
-  float pdf = light.w * row_density_[std::size_t(place.cell_y)];
-  if (place.cell_y > 0 && place.cell_y < height_) pdf /= std::max(cos_elevation, 1e-6f);
+void EnvironmentSampler::prefetch(int cell_x, int cell_y, int rows) const {
+  for (int r = 0; r < rows; ++r) {
+    const char* from = reinterpret_cast<const char*>(texel(cell_x, cell_y + r));
+    __builtin_prefetch(from);
+    if (rows > 2) __builtin_prefetch(from + kBlock * sizeof(glm::vec4));
+  }
+}
+
+EnvironmentSampler::Light EnvironmentSampler::at(const Place& place, const glm::vec3& direction) const {
+  const glm::vec4 *upper = texel(place.cell_x, place.cell_y), *lower = upper + width_ + 1;
+  const glm::vec4 left = upper[0] + (lower[0] - upper[0]) * place.y;
+  const glm::vec4 right = upper[1] + (lower[1] - upper[1]) * place.y;
+  const glm::vec4 light = left + (right - left) * place.x;
+  float pdf = light.w * rows_[std::size_t(place.cell_y)].density;
+  if (place.cell_y > 0 && place.cell_y < height_) pdf /= std::max(place.cos_elevation, 1e-6f);
   return {projection_.order > 0 ? sh::valueAt(projection_, direction) : glm::vec3(light), pdf};
 }
 
-EnvironmentSampler::Light EnvironmentSampler::from(const glm::vec3& d) const {
-  if (black()) return {};
-  const glm::vec3 local(cos_rotation_ * d.x - sin_rotation_ * d.z, d.y,
-                        sin_rotation_ * d.x + cos_rotation_ * d.z);
-  const float cos_elevation = std::sqrt(local.x * local.x + local.z * local.z);
-  const float u = std::atan2(local.z, local.x) * (0.5f / kPi) + 0.5f;
-  const float down = 0.5f - std::atan2(local.y, cos_elevation) * (1.0f / kPi);
-  float x = u * float(width_) + 0.5f;
+EnvironmentSampler::Place EnvironmentSampler::place(const glm::vec3& d) const {
+  const float local_x = cos_rotation_ * d.x - sin_rotation_ * d.z;
+  const float local_z = sin_rotation_ * d.x + cos_rotation_ * d.z;
+  const float cos_elevation = std::sqrt(local_x * local_x + local_z * local_z);
+  float x = (angles::turns(local_z, local_x) + 0.5f) * float(width_) + 0.5f;
   if (x >= float(width_)) x -= float(width_);
+  const float down = 0.5f - 2.0f * angles::turns(d.y, cos_elevation);
   const float y = std::clamp(down * float(height_) + 0.5f, 0.5f, float(height_) + 0.5f);
   const int cell_x = std::clamp(int(x), 0, width_ - 1), cell_y = std::clamp(int(y), 0, height_);
-  return lightAt({cell_x, cell_y, x - float(cell_x), y - float(cell_y)}, d, cos_elevation);
+  prefetch(cell_x, cell_y, 2);
+  return {cell_x, cell_y, x - float(cell_x), y - float(cell_y), cos_elevation};
 }
 
-EnvironmentSampler::Sample EnvironmentSampler::sample(const glm::uvec2& numbers) const {
-  if (black()) return {};
-  const Distribution::Choice row = marginal_.choose(numbers.y);
-  const Distribution::Choice column = rows_[row.index].choose(numbers.x);
-  Place place{int(column.index), int(row.index), 0.0f, 0.0f};
-  const glm::vec4* upper = &texels_[std::size_t(row.index) * std::size_t(width_ + 1) + column.index];
-  const glm::vec4* lower = upper + width_ + 1;
-  float cos_elevation, sin_elevation;
+EnvironmentSampler::Block EnvironmentSampler::choose(const glm::uvec2& numbers) const {
+  const Distribution::Choice row = block_rows_.choose(numbers.y);
+  const Distribution::Choice column = blocks_[row.index].choose(numbers.x);
+  prefetch(int(column.index) * kBlock, int(row.index) * kBlock,
+           std::min(kBlock + 1, height_ + 2 - int(row.index) * kBlock));
+  return {int(column.index), int(row.index), column.rest, row.rest};
+}
+
+// The cell and the place in it; what is left of the block's numbers chooses on.
+EnvironmentSampler::Place EnvironmentSampler::placeIn(const Block& block) const {
+  const int x0 = block.column * kBlock, y0 = block.row * kBlock;
+  const int columns = std::min(kBlock, width_ - x0), rows = std::min(kBlock, height_ + 1 - y0);
+  float sums[kBlock + 1];  // of each row of texels, those inside counted twice: they belong to two cells
+  for (int r = 0; r <= rows; ++r) {
+    const glm::vec4* t = texel(x0, y0 + r);
+    sums[r] = t[0].w + t[columns].w;
+    for (int c = 1; c < columns; ++c) sums[r] += 2.0f * t[c].w;
+  }
+  float of_rows[kBlock], total = 0.0f;
+  for (int r = 0; r < rows; ++r) {
+    of_rows[r] = (sums[r] + sums[r + 1]) * rows_[std::size_t(y0 + r)].solid_angle;
+    total += of_rows[r];
+  }
+  float rest = block.rest_y * total;
+  int row = 0;
+  while (row < rows - 1 && rest >= of_rows[row]) rest -= of_rows[row++];
+  const glm::vec4 *upper = texel(x0, y0 + row), *lower = upper + width_ + 1;
+  const float row_total = sums[row] + sums[row + 1];
+  float rest_x = block.rest_x * row_total, of_cell = 0.0f;
+  int column = 0;
+  for (;; ++column) {
+    of_cell = upper[column].w + upper[column + 1].w + lower[column].w + lower[column + 1].w;
+    if (column == columns - 1 || rest_x < of_cell) break;
+    rest_x -= of_cell;
+  }
+  Place place{x0 + column, y0 + row, of_cell > 0.0f ? std::clamp(rest_x / of_cell, 0.0f, 1.0f) : 0.5f,
+              of_rows[row] > 0.0f ? std::clamp(rest / of_rows[row], 0.0f, 1.0f) : 0.5f, 0.0f};
+  return place;
+}
+
+EnvironmentSampler::Sample EnvironmentSampler::sample(const Block& block) const {
+  Place place = placeIn(block);
+  const glm::vec4 *upper = texel(place.cell_x, place.cell_y), *lower = upper + width_ + 1;
+  float sin_elevation;
   if (place.cell_y == 0 || place.cell_y == height_) {
-    const float below = polar_height_ * (place.cell_y == 0 ? row.rest : 1.0f - row.rest);  // 1 - |sine|
+    const float below = polar_height_ * (place.cell_y == 0 ? place.y : 1.0f - place.y);  // 1 - |sine|
     sin_elevation = place.cell_y == 0 ? 1.0f - below : below - 1.0f;
-    cos_elevation = std::sqrt(below * (2.0f - below));
+    place.cos_elevation = std::sqrt(below * (2.0f - below));
     place.y = 0.5f;  // the same all over
   } else {
-    place.y = sampleLinear(upper[0].w + upper[1].w, lower[0].w + lower[1].w, row.rest);
-    const float elevation = kPi * (0.5f - (float(place.cell_y) + place.y - 0.5f) / float(height_));
-    sin_elevation = std::sin(elevation);
-    cos_elevation = std::cos(elevation);
+    place.y = sampleLinear(upper[0].w + upper[1].w, lower[0].w + lower[1].w, place.y);
+    const float down = (float(place.cell_y) + place.y - 0.5f) / float(height_);
+    const angles::Circle elevation = angles::circle(0.25f - 0.5f * down);
+    sin_elevation = elevation.sine;
+    place.cos_elevation = elevation.cosine;
   }
   place.x = sampleLinear(glm::mix(upper[0].w, lower[0].w, place.y), glm::mix(upper[1].w, lower[1].w, place.y),
-                         column.rest);
-  const float phi = 2.0f * kPi * ((float(place.cell_x) + place.x - 0.5f) / float(width_) - 0.5f);
-  const glm::vec3 local(cos_elevation * std::cos(phi), sin_elevation, cos_elevation * std::sin(phi));
+                         place.x);
+  const angles::Circle azimuth =
+      angles::circle((float(place.cell_x) + place.x - 0.5f) / float(width_) - 0.5f);
+  const float local_x = place.cos_elevation * azimuth.cosine, local_z = place.cos_elevation * azimuth.sine;
   Sample result;
-  result.direction = {cos_rotation_ * local.x + sin_rotation_ * local.z, local.y,
-                      cos_rotation_ * local.z - sin_rotation_ * local.x};
-  result.light = lightAt(place, result.direction, cos_elevation);
+  result.direction = {cos_rotation_ * local_x + sin_rotation_ * local_z, sin_elevation,
+                      cos_rotation_ * local_z - sin_rotation_ * local_x};
+  result.light = at(place, result.direction);
   return result;
 }
 

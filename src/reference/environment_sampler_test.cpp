@@ -75,7 +75,8 @@ void expectUnbiased(const EnvironmentSampler& sampler) {
   constexpr int kSamples = 1 << 16;
   glm::dvec3 light(0.0), up(0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const EnvironmentSampler::Sample s = sampler.sample(Sampler(9, 1, std::uint32_t(i)).bits(0));
+    const EnvironmentSampler::Sample s =
+        sampler.sample(sampler.choose(Sampler(9, 1, std::uint32_t(i)).numbers(0)));
     ASSERT_GT(s.light.pdf, 0.0f);
     ASSERT_NEAR(glm::length(s.direction), 1.0f, 1e-5f);
     const EnvironmentSampler::Light again = sampler.from(s.direction);
@@ -124,7 +125,6 @@ TEST(EnvironmentSampler, BlackAndMissingSkiesGiveNothing) {
       const EnvironmentSampler sampler(sky, order);
       EXPECT_TRUE(sampler.black());
       EXPECT_EQ(sampler.from({0.0f, 1.0f, 0.0f}).radiance, glm::vec3(0.0f));
-      EXPECT_EQ(sampler.sample({1u, 2u}).light.pdf, 0.0f);
     }
   }
 }

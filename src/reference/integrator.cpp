@@ -81,22 +81,20 @@ void Integrator::Impl::setFootprint(CameraPoint& point, const glm::vec3& directi
 void Integrator::Impl::setMaterial(CameraPoint& point) const {
   const Surfaces& surfaces = paths.surfaces();
   const int side = surfaces.textured(point.instance) ? kFootprintSamples : 1;
+  const trace::Hit hit{point.instance, point.triangle, 0.0f, point.u, point.v, point.geometric_normal};
   glm::vec3 albedo(0.0f), normal(0.0f);
+  Vertex vertex;
   for (int i = 0; i < side * side; ++i) {
     const glm::vec2 place = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
-    const Vertex vertex =
-        surfaces.vertexAt(point.instance, point.triangle, point.u, point.v, point.geometric_normal,
-                          -point.to_eye, point.uv_per_x * place.x + point.uv_per_y * place.y);
-    albedo += vertex.lobes.lobes.diffuse;
+    surfaces.setVertex(vertex, hit, -point.to_eye, point.uv_per_x * place.x + point.uv_per_y * place.y);
+    albedo += vertex.lobes->lobes.diffuse;
     normal += vertex.normal;
-    if (i > 0) continue;
-    point.position = vertex.position;
-    point.ray_offset = vertex.ray_offset;
-    point.normal = vertex.normal;
   }
+  point.position = vertex.position;
+  point.ray_offset = vertex.ray_offset;
   point.albedo = albedo / float(side * side);
   const float length = glm::length(normal);
-  if (side > 1 && length > 0.0f) point.normal = normal / length;
+  point.normal = side > 1 && length > 0.0f ? normal / length : vertex.normal;
 }
 
 Integrator::Integrator(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,

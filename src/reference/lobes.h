@@ -10,6 +10,7 @@
 
 #include "math/brdf.h"
 #include "math/sampling.h"
+#include "reference/angles.h"
 
 namespace gloam::reference {
 
@@ -31,8 +32,10 @@ struct LobesReady {
 /// Those lobes at a point.
 class PointLobes {
  public:
+  PointLobes() = default;
+  /// Keeps a reference to `ready`.
   PointLobes(const LobesReady& ready, const glm::vec3& normal, const glm::vec3& to_view)
-      : ready_(ready), normal_(normal), mirror_(2.0f * glm::dot(normal, to_view) * normal - to_view) {}
+      : ready_(&ready), normal_(normal), mirror_(2.0f * glm::dot(normal, to_view) * normal - to_view) {}
 
   struct Value {
     glm::vec3 value{0.0f};  ///< brdf::evaluateLobes
@@ -40,30 +43,32 @@ class PointLobes {
   };
   Value at(const glm::vec3& direction) const {
     const float lambert = std::max(0.0f, glm::dot(normal_, direction)) * (1.0f / sampling::kPi);
-    if (ready_.specular_share == 0.0f) return {ready_.lobes.diffuse * lambert, lambert};
+    if (ready_->specular_share == 0.0f) return {ready_->lobes.diffuse * lambert, lambert};
     const float phong = phongAt(glm::dot(mirror_, direction));
-    return {ready_.lobes.diffuse * lambert + ready_.lobes.specular * phong,
-            (1.0f - ready_.specular_share) * lambert + ready_.specular_share * phong};
+    return {ready_->lobes.diffuse * lambert + ready_->lobes.specular * phong,
+            (1.0f - ready_->specular_share) * lambert + ready_->specular_share * phong};
   }
 
   /// brdf::sampleLobes with the choice of the lobe taken out of u.x. Not for black lobes.
   glm::vec3 sample(glm::vec2 u) const {
-    const float share = ready_.specular_share;
+    const float share = ready_->specular_share;
     if (u.x < share)
-      return sampling::frame(mirror_) * sampling::phongLobe({u.x / share, u.y}, ready_.lobes.exponent);
-    u.x = std::min((u.x - share) / (1.0f - share), 0x1.fffffep-1f);
-    return sampling::frame(normal_) * sampling::cosineHemisphere(u);
+      return sampling::frame(mirror_) * sampling::phongLobe({u.x / share, u.y}, ready_->lobes.exponent);
+    if (share > 0.0f) u.x = std::min((u.x - share) / (1.0f - share), 0x1.fffffep-1f);
+    const float radius = std::sqrt(u.x);
+    const angles::Circle azimuth = angles::circle(u.y);
+    return angles::about(normal_, radius * azimuth.cosine, radius * azimuth.sine, std::sqrt(1.0f - u.x));
   }
 
  private:
   float phongAt(float cosine) const {
     if (cosine <= 0.0f) return 0.0f;
-    const float n = ready_.lobes.exponent;
-    return ready_.phong_scale * (n == 1.0f ? cosine : std::pow(cosine, n));
+    const float n = ready_->lobes.exponent;
+    return ready_->phong_scale * (n == 1.0f ? cosine : std::pow(cosine, n));
   }
 
-  const LobesReady& ready_;
-  glm::vec3 normal_, mirror_;
+  const LobesReady* ready_ = nullptr;
+  glm::vec3 normal_{0.0f}, mirror_{0.0f};
 };
 
 }  // namespace gloam::reference

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gloam::reference {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 enum Pair : std::uint32_t { kLobes, kEnvironment, kEmitterPoint, kEmitter, kLampAndRoulette, kPairsAVertex };
 constexpr std::uint32_t kPixelPair = 0;
 
-constexpr int kFirstRoulette = 4;         // vertices before it are always followed
-constexpr float kSurestRoulette = 0.95f;  // so that a white furnace ends too
+constexpr std::uint32_t kFirstRoulette = 4;  // vertices before it are always followed
+constexpr float kSurestRoulette = 0.95f;     // so that a white furnace ends too
 
 float largest(const glm::vec3& v) {
   return std::max(v.x, std::max(v.y, v.z));
@@ -32,18 +33,22 @@ struct Paths::Walk {
   const Sampler& sampler;
   std::size_t& rays;
   std::vector<trace::LoggedRay>* log;
-  PathLight light{};
-  Vertex vertex{};
-  glm::vec3 to_view{0.0f};
+  PathLight& light;
+  Vertex vertex;
+  PointLobes lobes;
+  glm::vec3 origin;  // of rays that leave the vertex
   glm::vec3 throughput{1.0f};
-  glm::vec3 origin{0.0f};  ///< of rays that leave the vertex
   Sources sources;
-  int depth = 0;
-  const PointLobes* lobes = nullptr;
+  std::uint32_t depth = 0, first_pair = 1;
 
-  glm::vec2 pair(Pair which) const { return sampler.pair(number(which)); }
-  glm::uvec2 bits(Pair which) const { return sampler.bits(number(which)); }
-  std::uint32_t number(Pair which) const { return 1u + std::uint32_t(depth) * kPairsAVertex + which; }
+  glm::vec2 pair(Pair which) const { return sampler.pair(first_pair + which); }
+  glm::uvec2 numbers(Pair which, std::uint32_t ahead = 0) const {
+    return sampler.numbers(first_pair + ahead * kPairsAVertex + which);
+  }
+  void arrive(const glm::vec3& to_view) {
+    lobes = PointLobes(*vertex.lobes, vertex.normal, to_view);
+    origin = vertex.rayOrigin();
+  }
   void add(LightPath direct, const glm::vec3& radiance) {
     light[std::size_t(direct) + (depth > 0 ? 1u : 0u)] += throughput * radiance;
   }
@@ -53,6 +58,14 @@ struct Paths::Walk {
   }
 };
 
+/// A direction by lobes.
+struct Paths::Step {
+  glm::vec3 direction{0.0f};
+  glm::vec3 throughput{0.0f};  ///< of the step alone
+  float pdf = 0.0f;
+  EnvironmentSampler::Place sky;
+};
+
 Paths::Paths(const Scene& scene, const PosedScene& posed,
              std::shared_ptr<const EnvironmentSampler> environment, const ReferenceOptions& options,
              Sampling sampling, const Progress& progress)
@@ -60,7 +73,8 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
       surfaces_(scene, posed, tracer_),
       environment_(std::move(environment)),
       sample_lights_(sampling != Sampling::kLobes),
-      sample_lobes_(sampling != Sampling::kLights) {
+      sample_lobes_(sampling != Sampling::kLights),
+      both_(sampling == Sampling::kBoth) {
   const Coverage& light = options.light;
   const bool bounces = options.bounces > 0;
   if (light.emitter_direct || (light.emitter_indirect && bounces))
@@ -74,21 +88,15 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
   last_depth_ = indirect_.any() ? options.bounces : 0;
 }
 
-float Paths::weight(float pdf, float other_pdf) const {
-  if (!sample_lights_ || !sample_lobes_) return 1.0f;
-  const float ratio = other_pdf / pdf;
-  return 1.0f / (1.0f + ratio * ratio);
-}
-
 bool Paths::visible(Walk& walk, const trace::Ray& ray) const {
   walk.count(ray, true);
   return !tracer_.occluded(ray);
 }
 
-void Paths::fromEnvironment(Walk& walk) const {
-  const EnvironmentSampler::Sample sample = environment_->sample(walk.bits(kEnvironment));
+void Paths::fromEnvironment(Walk& walk, const EnvironmentSampler::Block& block) const {
+  const EnvironmentSampler::Sample sample = environment_->sample(block);
   if (!(sample.light.pdf > 0.0f) || glm::dot(walk.vertex.geometric_normal, sample.direction) <= 0.0f) return;
-  const PointLobes::Value lobes = walk.lobes->at(sample.direction);
+  const PointLobes::Value lobes = walk.lobes.at(sample.direction);
   const glm::vec3 radiance =
       lobes.value * sample.light.radiance * (weight(sample.light.pdf, lobes.pdf) / sample.light.pdf);
   if (isBlack(radiance) || !visible(walk, {walk.origin, sample.direction})) return;
@@ -96,7 +104,7 @@ void Paths::fromEnvironment(Walk& walk) const {
 }
 
 void Paths::fromEmitters(Walk& walk) const {
-  const Emitters::Sample sample = emitters_.sample(walk.bits(kEmitter).x, walk.pair(kEmitterPoint));
+  const Emitters::Sample sample = emitters_.sample(walk.numbers(kEmitter).x, walk.pair(kEmitterPoint));
   if (isBlack(sample.radiance)) return;
   const glm::vec3 between = sample.position - walk.vertex.position;
   const float squared = glm::dot(between, between);
@@ -106,7 +114,7 @@ void Paths::fromEmitters(Walk& walk) const {
   const float cosine = glm::dot(sample.normal, direction);
   const float pdf = Emitters::solidAnglePdf(sample.area_pdf, squared, std::abs(cosine));
   if (!(pdf > 0.0f)) return;
-  const PointLobes::Value lobes = walk.lobes->at(direction);
+  const PointLobes::Value lobes = walk.lobes.at(direction);
   const glm::vec3 radiance = lobes.value * sample.radiance * (weight(pdf, lobes.pdf) / pdf);
   if (isBlack(radiance)) return;
   // To just before the triangle, on the side from which it is seen.
@@ -117,116 +125,152 @@ void Paths::fromEmitters(Walk& walk) const {
   walk.add(kEmitterDirect, radiance);
 }
 
+void Paths::fromLamp(Walk& walk, const Lamp::Arriving& from, const glm::vec3& radiance) const {
+  trace::Ray ray{walk.origin, from.to_lamp};
+  if (from.distance < std::numeric_limits<float>::infinity()) {
+    const glm::vec3 way = walk.vertex.position + from.distance * from.to_lamp - walk.origin;
+    ray.t_far = std::sqrt(glm::dot(way, way));
+    if (ray.t_far > 0.0f) ray.direction = way * (1.0f / ray.t_far);
+  }
+  if (visible(walk, ray)) walk.add(kLocalDirect, radiance);
+}
+
 void Paths::fromLamps(Walk& walk) const {
-  // One of many, by what it would give without shadow. The number's rest chooses on.
-  float u = lamps_.size() > 1 ? walk.pair(kLampAndRoulette).x : 0.0f, total = 0.0f;
+  const auto shown = [&](const Lamp::Arriving& from) {
+    if (glm::dot(walk.vertex.geometric_normal, from.to_lamp) <= 0.0f || isBlack(from.irradiance))
+      return glm::vec3(0.0f);
+    return from.irradiance * walk.lobes.at(from.to_lamp).value;
+  };
+  if (lamps_.size() == 1) {
+    const Lamp::Arriving from = lamps_[0].at(walk.vertex.position);
+    const glm::vec3 radiance = shown(from);
+    if (!isBlack(radiance)) fromLamp(walk, from, radiance);
+    return;
+  }
+  // One of many, by what it would give without shadow. What is left of the number chooses on.
+  float u = walk.pair(kLampAndRoulette).x, total = 0.0f;
   glm::vec3 chosen(0.0f);
-  Lamp::Arriving from;
+  Lamp::Arriving chosen_from;
   for (const Lamp& lamp : lamps_) {
-    const Lamp::Arriving arriving = lamp.at(walk.vertex.position);
-    if (glm::dot(walk.vertex.geometric_normal, arriving.to_lamp) <= 0.0f || isBlack(arriving.irradiance))
-      continue;
-    const glm::vec3 radiance = arriving.irradiance * walk.lobes->at(arriving.to_lamp).value;
+    const Lamp::Arriving from = lamp.at(walk.vertex.position);
+    const glm::vec3 radiance = shown(from);
     const float size = radiance.r + radiance.g + radiance.b;
     if (!(size > 0.0f)) continue;
     total += size;
     const float share = size / total;
     if (u < share) {
       chosen = radiance / size;
-      from = arriving;
+      chosen_from = from;
       u /= share;
     } else {
       u = (u - share) / (1.0f - share);
     }
   }
-  if (!(total > 0.0f)) return;
-  trace::Ray ray{walk.origin, from.to_lamp};
-  if (std::isfinite(from.distance)) {
-    const glm::vec3 way = walk.vertex.position + from.distance * from.to_lamp - walk.origin;
-    ray.t_far = glm::length(way);
-    if (ray.t_far > 0.0f) ray.direction = way / ray.t_far;
-  }
-  if (visible(walk, ray)) walk.add(kLocalDirect, chosen * total);
+  if (total > 0.0f) fromLamp(walk, chosen_from, chosen * total);
 }
 
-// Along the lobes to the next vertex; collects what shines there. Whether the path goes on.
-bool Paths::step(Walk& walk, bool go_on) const {
-  const glm::vec3 direction = walk.lobes->sample(walk.pair(kLobes));
-  if (glm::dot(walk.vertex.geometric_normal, direction) <= 0.0f) return false;
-  const PointLobes::Value lobes = walk.lobes->at(direction);
+bool Paths::chooseStep(Walk& walk, Step& step) const {
+  step.direction = walk.lobes.sample(walk.pair(kLobes));
+  if (glm::dot(walk.vertex.geometric_normal, step.direction) <= 0.0f) return false;
+  const PointLobes::Value lobes = walk.lobes.at(step.direction);
   if (!(lobes.pdf > 0.0f)) return false;
-  walk.throughput *= lobes.value / lobes.pdf;
-  if (isBlack(walk.throughput)) return false;
-  const trace::Ray ray{walk.origin, direction};
-  const auto addEnvironment = [&](const EnvironmentSampler::Light& light) {
-    if (!isBlack(light.radiance)) walk.add(kEnvironmentDirect, light.radiance * weight(lobes.pdf, light.pdf));
-  };
-  if (!go_on && !(walk.sources.emitters && sample_lobes_)) {
-    // The last vertex: only whether the sky is free.
-    const EnvironmentSampler::Light light = environment_->from(direction);
-    if (!isBlack(light.radiance) && visible(walk, ray)) addEnvironment(light);
-    return false;
-  }
+  step.pdf = lobes.pdf;
+  step.throughput = lobes.value * (1.0f / lobes.pdf);
+  if (walk.sources.environment) step.sky = environment_->place(step.direction);
+  return !isBlack(step.throughput);
+}
+
+void Paths::addEnvironment(Walk& walk, const Step& step) const {
+  const EnvironmentSampler::Light light = environment_->at(step.sky, step.direction);
+  if (!isBlack(light.radiance))
+    walk.add(kEnvironmentDirect, step.throughput * light.radiance * weight(step.pdf, light.pdf));
+}
+
+// The last vertex under a sky alone: only whether it is free.
+void Paths::finish(Walk& walk, const Step& step) const {
+  if (!environment_->isDark(step.sky) && visible(walk, {walk.origin, step.direction}))
+    addEnvironment(walk, step);
+}
+
+// To the next vertex; collects what shines there. Whether the path goes on.
+bool Paths::advance(Walk& walk, const Step& step, bool go_on) const {
+  const trace::Ray ray{walk.origin, step.direction};
   walk.count(ray, false);
   const trace::Hit hit = tracer_.closest(ray);
   if (!hit) {
-    if (walk.sources.environment && sample_lobes_) addEnvironment(environment_->from(direction));
+    if (walk.sources.environment && sample_lobes_) addEnvironment(walk, step);
     return false;
   }
   if (walk.sources.emitters && sample_lobes_ && surfaces_.emits(hit.instance)) {
-    const float cosine = std::abs(glm::dot(hit.geometric_normal, direction));
+    const float cosine = std::abs(glm::dot(hit.geometric_normal, step.direction));
     const float pdf = Emitters::solidAnglePdf(emitters_.areaPdf(hit.instance, hit.triangle),
                                               hit.distance * hit.distance, cosine);
-    walk.add(kEmitterDirect,
-             surfaces_.emission(hit.instance, hit.triangle, hit.u, hit.v) * weight(lobes.pdf, pdf));
+    walk.add(kEmitterDirect, step.throughput * surfaces_.emission(hit.instance, hit.triangle, hit.u, hit.v) *
+                                 weight(step.pdf, pdf));
   }
   if (!go_on) return false;
+  walk.throughput *= step.throughput;
   if (walk.depth >= kFirstRoulette) {
     const float chance = std::min(largest(walk.throughput), kSurestRoulette);
     if (walk.pair(kLampAndRoulette).y >= chance) return false;
     walk.throughput /= chance;
   }
-  walk.vertex = surfaces_.vertexAt(hit, direction);
-  walk.to_view = -direction;
+  surfaces_.setVertex(walk.vertex, hit, step.direction);
+  walk.arrive(-step.direction);
+  ++walk.depth;
+  walk.first_pair += kPairsAVertex;
+  walk.sources = indirect_;
   return true;
 }
 
-Vertex Paths::firstVertex(const CameraPoint& point, const Sampler& sampler, PathLight& light) const {
+void Paths::begin(Walk& walk, const CameraPoint& point) const {
+  glm::vec2 shift(0.0f);
   if (!surfaces_.textured(point.instance)) {
+    walk.vertex.position = point.position;
+    walk.vertex.geometric_normal = point.geometric_normal;
+    walk.vertex.normal = point.normal;
+    walk.vertex.ray_offset = point.ray_offset;
     const trace::SurfacePoint at{point.triangle, point.u, point.v};
-    if (surfaces_.emits(point.instance))
-      light[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v);
-    return {point.position, point.geometric_normal, point.normal, point.ray_offset,
-            surfaces_.lobes(point.instance, at, at)};
+    surfaces_.setLobes(walk.vertex, point.instance, at, at);
+  } else {
+    const glm::vec2 place = walk.sampler.pair(kPixelPair) - 0.5f;
+    shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
+    const trace::Hit hit{point.instance, point.triangle, 0.0f, point.u, point.v, point.geometric_normal};
+    surfaces_.setVertex(walk.vertex, hit, -point.to_eye, shift);
   }
-  const glm::vec2 place = sampler.pair(kPixelPair) - 0.5f;
-  const glm::vec2 shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
   if (surfaces_.emits(point.instance))
-    light[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
-  return surfaces_.vertexAt(point.instance, point.triangle, point.u, point.v, point.geometric_normal,
-                            -point.to_eye, shift);
+    walk.light[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
+  walk.arrive(point.to_eye);
+  walk.sources = direct_;
 }
 
 PathLight Paths::trace(const CameraPoint& point, const Sampler& sampler, std::size_t& rays,
                        std::vector<trace::LoggedRay>* log) const {
-  Walk walk{sampler, rays, log};
-  walk.vertex = firstVertex(point, sampler, walk.light);
-  walk.to_view = point.to_eye;
-  for (;; ++walk.depth) {
-    if (walk.vertex.lobes.black) break;
-    walk.sources = walk.depth == 0 ? direct_ : indirect_;
-    const bool go_on = walk.depth < last_depth_;
-    const PointLobes lobes(walk.vertex.lobes, walk.vertex.normal, walk.to_view);
-    walk.lobes = &lobes;
-    walk.origin = walk.vertex.rayOrigin();
+  PathLight light{};
+  Walk walk{sampler, rays, log, light};
+  const bool sky_by_light = sample_lights_ && (direct_.environment || indirect_.environment);
+  // A vertex ahead: the sky's light takes its time to come from memory.
+  EnvironmentSampler::Block block, next;
+  if (sky_by_light) next = environment_->choose(walk.numbers(kEnvironment));
+  begin(walk, point);
+  for (bool go_on = true; go_on && !walk.vertex.lobes->black;) {
+    go_on = int(walk.depth) < last_depth_;
+    block = next;
+    if (sky_by_light && go_on) next = environment_->choose(walk.numbers(kEnvironment, 1));
     if (walk.sources.lamps) fromLamps(walk);
-    if (walk.sources.environment && sample_lights_) fromEnvironment(walk);
-    if (walk.sources.emitters && sample_lights_) fromEmitters(walk);
+    Step step;
     const bool by_lobes = sample_lobes_ && (walk.sources.environment || walk.sources.emitters);
-    if (!go_on && !by_lobes) break;
-    if (!step(walk, go_on)) break;
+    const bool stepping = (go_on || by_lobes) && chooseStep(walk, step);
+    if (walk.sources.environment && sample_lights_) fromEnvironment(walk, block);
+    if (walk.sources.emitters && sample_lights_) fromEmitters(walk);
+    if (!stepping) break;
+    if (!go_on && !walk.sources.emitters) {
+      finish(walk, step);
+      break;
+    }
+    go_on = advance(walk, step, go_on);
   }
-  return walk.light;
+  return light;
 }
 
 }  // namespace gloam::reference

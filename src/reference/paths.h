@@ -41,12 +41,20 @@ class Paths {
 
  private:
   struct Walk;
-  Vertex firstVertex(const CameraPoint& point, const Sampler& sampler, PathLight& light) const;
-  void fromEnvironment(Walk& walk) const;
+  struct Step;
+  void begin(Walk& walk, const CameraPoint& point) const;
+  void fromEnvironment(Walk& walk, const EnvironmentSampler::Block& block) const;
   void fromEmitters(Walk& walk) const;
   void fromLamps(Walk& walk) const;
-  bool step(Walk& walk, bool go_on) const;
-  float weight(float pdf, float other_pdf) const;
+  void fromLamp(Walk& walk, const Lamp::Arriving& from, const glm::vec3& radiance) const;
+  bool chooseStep(Walk& walk, Step& step) const;
+  void finish(Walk& walk, const Step& step) const;
+  bool advance(Walk& walk, const Step& step, bool go_on) const;
+  void addEnvironment(Walk& walk, const Step& step) const;
+  float weight(float pdf, float other_pdf) const {
+    const float ratio = other_pdf / pdf;
+    return both_ ? 1.0f / (1.0f + ratio * ratio) : 1.0f;
+  }
   bool visible(Walk& walk, const trace::Ray& ray) const;
 
   trace::Tracer tracer_;
@@ -56,7 +64,7 @@ class Paths {
   std::vector<Lamp> lamps_;
   Sources direct_, indirect_;
   int last_depth_ = 0;
-  bool sample_lights_ = true, sample_lobes_ = true;
+  bool sample_lights_ = true, sample_lobes_ = true, both_ = true;
 };
 
 }  // namespace gloam::reference

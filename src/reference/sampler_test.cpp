@@ -19,7 +19,7 @@ TEST(Sampler, EveryPairIsANetInEveryAlignedBlock) {
       for (int a = 0; a <= 6; ++a) {
         std::set<std::uint32_t> boxes;
         for (std::uint32_t i = first; i < first + 64; ++i) {
-          const glm::uvec2 b = Sampler(3, 11, i).bits(pair);
+          const glm::uvec2 b = Sampler(3, 11, i).numbers(pair);
           const std::uint32_t column = a == 0 ? 0 : b.x >> (32 - a), row = a == 6 ? 0 : b.y >> (26 + a);
           boxes.insert(column << 16 | row);
         }
@@ -64,8 +64,8 @@ TEST(Sampler, PixelsPairsSamplesAndSeedsKnowNothingOfEachOther) {
 }
 
 TEST(Sampler, FollowsFromItsArguments) {
-  EXPECT_EQ(Sampler(5, 6, 7).bits(8), Sampler(5, 6, 7).bits(8));
-  EXPECT_NE(Sampler(5, 6, 7).bits(8), Sampler(6, 6, 7).bits(8));
+  EXPECT_EQ(Sampler(5, 6, 7).numbers(8), Sampler(5, 6, 7).numbers(8));
+  EXPECT_NE(Sampler(5, 6, 7).numbers(8), Sampler(6, 6, 7).numbers(8));
   EXPECT_LT(Sampler::toUnit(0xffffffffu), 1.0f);
 }
 

@@ -69,12 +69,15 @@ Surfaces::Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tra
   }
 }
 
-LobesReady Surfaces::lobes(int instance, const trace::SurfacePoint& at,
-                           const trace::SurfacePoint& texture_at) const {
+void Surfaces::setLobes(Vertex& vertex, int instance, const trace::SurfacePoint& at,
+                        const trace::SurfacePoint& texture_at) const {
   const Surface& s = instances_[std::size_t(instance)];
-  if (s.uniform) return s.lobes;
+  vertex.lobes = &s.lobes;
+  if (s.uniform) return;
   const trace::MaterialPoint point = trace::materialAt(scene_, *s.mesh, at, texture_at);
-  return readyLobes(glm::vec3(point.base_color), point.metallic, point.roughness, s.material->specular);
+  vertex.own_lobes =
+      readyLobes(glm::vec3(point.base_color), point.metallic, point.roughness, s.material->specular);
+  vertex.lobes = &vertex.own_lobes;
 }
 
 glm::vec3 Surfaces::tilted(const Surface& s, const glm::uvec3& corners, const trace::SurfacePoint& at,
@@ -89,31 +92,30 @@ glm::vec3 Surfaces::tilted(const Surface& s, const glm::uvec3& corners, const tr
   return trace::mappedNormal(normal, tangent, glm::vec3(texel), s.material->normal_scale);
 }
 
-Vertex Surfaces::vertexAt(int instance, int triangle, float u, float v, glm::vec3 face_normal,
-                          const glm::vec3& direction, const glm::vec2& texture_shift) const {
-  const Surface& s = instances_[std::size_t(instance)];
-  const glm::uvec3 corner = s.triangles.vertices[triangle];
+void Surfaces::setVertex(Vertex& vertex, const trace::Hit& hit, const glm::vec3& direction,
+                         const glm::vec2& texture_shift) const {
+  const Surface& s = instances_[std::size_t(hit.instance)];
+  const glm::uvec3 corner = s.triangles.vertices[hit.triangle];
   const glm::vec3 &a = s.triangles.positions[corner.x], &b = s.triangles.positions[corner.y],
                   &c = s.triangles.positions[corner.z];
-  const float w = 1.0f - u - v;
-  if (glm::dot(direction, face_normal) > 0.0f) face_normal = -face_normal;
+  const float u = hit.u, v = hit.v, w = 1.0f - u - v;
+  const glm::vec3 face =
+      hit.geometric_normal * -std::copysign(1.0f, glm::dot(direction, hit.geometric_normal));
   const glm::vec3 smooth =
-      unitOr(s.normals[corner.x] * w + s.normals[corner.y] * u + s.normals[corner.z] * v, face_normal);
-  Vertex vertex;
+      unitOr(s.normals[corner.x] * w + s.normals[corner.y] * u + s.normals[corner.z] * v, face);
+  const float side = glm::dot(smooth, face) < 0.0f ? -1.0f : 1.0f;
   vertex.position = a * w + b * u + c * v;
-  vertex.geometric_normal = face_normal;
+  vertex.geometric_normal = face;
   vertex.ray_offset = trace::surfaceOffset(a, b, c);
-  vertex.normal = smooth;
   if (s.uniform && !s.normal_mapped) {
-    vertex.lobes = s.lobes;
-  } else {
-    const trace::SurfacePoint at{triangle, u, v},
-        texture_at{triangle, u + texture_shift.x, v + texture_shift.y};
-    if (s.normal_mapped) vertex.normal = tilted(s, corner, at, texture_at, smooth);
-    vertex.lobes = lobes(instance, at, texture_at);
+    vertex.normal = smooth * side;
+    vertex.lobes = &s.lobes;
+    return;
   }
-  if (glm::dot(smooth, face_normal) < 0.0f) vertex.normal = -vertex.normal;
-  return vertex;
+  const trace::SurfacePoint at{hit.triangle, u, v},
+      texture_at{hit.triangle, u + texture_shift.x, v + texture_shift.y};
+  vertex.normal = side * (s.normal_mapped ? tilted(s, corner, at, texture_at, smooth) : smooth);
+  setLobes(vertex, hit.instance, at, texture_at);
 }
 
 glm::vec3 Surfaces::emission(int instance, int triangle, float u, float v,

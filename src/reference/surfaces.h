@@ -16,11 +16,14 @@ namespace gloam::reference {
 /// A point on a surface, seen from a side.
 struct Vertex {
   glm::vec3 position{0.0f};
-  glm::vec3 geometric_normal{0.0f};  ///< unit, toward whoever looks
-  glm::vec3 normal{0.0f};            ///< shading normal, by the rule of sides (frame/README.md)
-  float ray_offset = 0.0f;           ///< rays start that far off, along the geometric normal (trace/rays.h)
-  LobesReady lobes;
+  glm::vec3 geometric_normal{0.0f};   ///< unit, toward whoever looks
+  glm::vec3 normal{0.0f};             ///< shading normal, by the rule of sides (frame/README.md)
+  float ray_offset = 0.0f;            ///< rays start that far off, along the geometric normal (trace/rays.h)
+  const LobesReady* lobes = nullptr;  ///< those of the whole surface, or own_lobes
+  LobesReady own_lobes;
 
+  Vertex() = default;
+  Vertex(const Vertex&) = delete;
   glm::vec3 rayOrigin() const { return position + geometric_normal * ray_offset; }
 };
 
@@ -30,11 +33,8 @@ class Surfaces {
   Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tracer& tracer);
 
   /// What a ray in that direction meets. `texture_shift` moves textures alone: by that much of the triangle's coordinates.
-  Vertex vertexAt(int instance, int triangle, float u, float v, glm::vec3 face_normal,
-                  const glm::vec3& direction, const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
-  Vertex vertexAt(const trace::Hit& hit, const glm::vec3& direction) const {
-    return vertexAt(hit.instance, hit.triangle, hit.u, hit.v, hit.geometric_normal, direction);
-  }
+  void setVertex(Vertex& vertex, const trace::Hit& hit, const glm::vec3& direction,
+                 const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
   /// Whether a texture shift changes anything.
   bool textured(int instance) const { return instances_[std::size_t(instance)].textured; }
 
@@ -50,8 +50,9 @@ class Surfaces {
   std::size_t triangleCount(int instance) const {
     return instances_[std::size_t(instance)].mesh->triangleCount();
   }
-  /// Lobes where maps and vertex colours say so, else the same everywhere.
-  LobesReady lobes(int instance, const trace::SurfacePoint& at, const trace::SurfacePoint& texture_at) const;
+  /// Sets the lobes alone: where neither maps nor vertex colours vary them, the same everywhere.
+  void setLobes(Vertex& vertex, int instance, const trace::SurfacePoint& at,
+                const trace::SurfacePoint& texture_at) const;
 
  private:
   struct Surface {

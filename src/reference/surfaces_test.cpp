@@ -288,7 +288,7 @@ TEST(Emitters, TexturesShine) {
     } else {
       builder.place("lamp", sheet(false), material, {0.0f, 1.0f, 0.0f});
     }
-    return estimate(builder.finish(), lookingAt({1.0f, 0.5f, 0.5f}, glm::vec3(0.0f)), {}, onePixel(0), 8192);
+    return estimate(builder.finish(), lookingAt({1.0f, 0.5f, 0.5f}, glm::vec3(0.0f)), {}, onePixel(0), 16384);
   };
   expectTruth(light(true), 0.5 * light(false).mean, 3e-3);
 }
