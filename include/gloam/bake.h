@@ -16,6 +16,13 @@ enum class TransferKind {
   kInterreflected,  ///< DI: `bounces` passes on top of DS
 };
 
+/// Which meshes get glossy transfer (PRT-2): matrices beside vectors.
+enum class GlossyMeshes {
+  kNone,
+  kShiny,  ///< those whose material mirrors 10 % or more somewhere: metals, mostly
+  kAll,
+};
+
 struct BakeOptions {
   TransferKind kind = TransferKind::kInterreflected;
   int order = 5;           ///< 3 to 6
@@ -25,6 +32,10 @@ struct BakeOptions {
       2048;             ///< of the same set, 64 to 65536; the even subset that is nearest in size is taken
   int threads = 0;      ///< 0: all cores. The result does not depend on it
   float time_s = 0.0f;  ///< instant at which the scene is posed
+  GlossyMeshes glossy = GlossyMeshes::kNone;  ///< GU, GS or GI as `kind` is DU, DS or DI
+  int glossy_order = 0;                       ///< bands of transferred radiance, 3 to 6; 0: `order`
+  int glossy_light_order = 0;    ///< bands of light, 3 to the lesser of `order` and glossy_order; 0: that
+  float glossy_exponent = 0.0f;  ///< bakes that Phong lobe in, 1 to 1000; 0: each material's, at run time
   /// Finished work is kept here (when stopped, and every 20 s against being killed) and taken up again by the same bake of
   /// the same scene, with the same bits as without interruption. Any other file of that name is an Error: it is neither
   /// used nor overwritten. Empty: none. Removed at the end.
@@ -34,6 +45,7 @@ struct BakeOptions {
 /// What a bake will take at most, before it starts.
 struct BakeEstimate {
   std::size_t vertices = 0, triangles = 0;
+  std::size_t glossy_vertices = 0;  ///< of these, the ones with matrices
   std::size_t rays = 0;  ///< of the first pass: half of all directions are below a vertex's horizon
   std::size_t memory_bytes = 0, file_bytes = 0;
 };
@@ -47,6 +59,10 @@ struct BakeReport {
   double first_pass_s = 0.0;    ///< wall clock
   double bounces_s = 0.0;
   bool resumed = false;
+  std::size_t glossy_points = 0;  ///< of the points, those with matrices
+  /// Relative RMS error, over these, of what prt.glossy=cheap shows: V to no more bands than the radiance has. Seen through
+  /// the sharpest lobe that is shown, under light whose coefficients fall with their band as 1 / (l + 1).
+  double cheap_error = 0.0;
 };
 
 /// Bakes all rigid meshes of the scene as one object in its pose: every mesh shadows and lights every other. Skinned and

@@ -68,6 +68,28 @@ struct MorphTarget {
   std::vector<glm::vec3> positions, normals, tangents;
 };
 
+/// Glossy transfer of a mesh's vertices (PRT-2), without the receiver's own BRDF: from the light's coefficients to those of
+/// the radiance that arrives, a bands of light to b bands of radiance, i < b^2, j < a^2, a <= b. GS_ij, the integral of
+/// V y_i y_j with V = 0 below the tangent plane, is the sum over k of Gamma_ijk V_k: exact with V to a + b - 1 bands, so that
+/// these hold the matrix in a quarter of its size (math/sh_high_order.h).
+struct GlossyTransfer {
+  int light_order = 0, field_order = 0;  ///< a and b, 1 to 6; 0: there is none
+  /// 0: any lobe may be chosen at run time. Else one Phong lobe of that exponent is baked in: rows i of `indirect` are
+  /// multiplied by its band factors, those of GS are to be.
+  float exponent = 0.0f;
+  std::vector<float> visibility;  ///< V: [vertex][coefficient], size vertices * (a + b - 1)^2
+  std::vector<float> indirect;    ///< GI - GS: [vertex][i][j][rgb]; empty without bounces
+  bool empty() const { return light_order == 0; }
+  /// Values a vertex of `visibility`, and of `indirect` for each colour.
+  std::size_t visibilityCount() const {
+    const int bands = empty() ? 0 : light_order + field_order - 1;
+    return static_cast<std::size_t>(bands * bands);
+  }
+  std::size_t matrixCount() const {
+    return static_cast<std::size_t>(light_order * light_order * field_order * field_order);
+  }
+};
+
 /// Precomputed radiance transfer of a mesh's vertices (PRT-1), without the receiver's own albedo / pi. In the mesh's own
 /// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart.
 struct Transfer {
@@ -77,6 +99,7 @@ struct Transfer {
   std::vector<float> direct;  ///< DS: [vertex][coefficient], size vertices * order^2
   std::vector<float>
       indirect;  ///< DI - DS: [vertex][coefficient][rgb], size vertices * order^2 * 3; empty without bounces
+  GlossyTransfer glossy;
 };
 
 /// Triangles that share a material: a glTF primitive. All vertex arrays have the length of `positions` or are empty

@@ -34,13 +34,21 @@ struct Irradiance {
   int divisor = 1;  ///< below full size it is upsampled along surfaces (PX-8)
 };
 
+/// RGB radiance that each pixel's Phong lobe gathers, of integral 1, at the pixel's exponent and about the mirror
+/// direction of its shading normal: k_s times it leaves the surface.
+struct Gloss {
+  gpu::ImageRef image;  ///< RGB, floats or halves, at full size
+  Path path = Path::kDirect;
+};
+
 /// What a technique hands on, never final colour. Terms of different light paths add up.
 struct Lighting {
   std::vector<Irradiance> irradiance;
+  std::vector<Gloss> gloss;
   /// True: the technique's terms contain the direct light of lamps, else frame/ shades it with its shadow
   /// maps.
   bool has_local_direct = false;
-  /// True: the technique's terms contain the gloss of the environment, else frame/ adds the unshadowed Phong
+  /// True: `gloss` contains that of the environment, else frame/ adds the unshadowed Phong
   /// lobe.
   bool has_environment_gloss = false;
 };

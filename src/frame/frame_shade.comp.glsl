@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Light becomes colour: emission + lamps + k_d / pi times irradiance + the Phong lobe under the environment's
-// order-6 SH (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed, tabulated) + background.
+// order-6 SH (row RF-5: k_s sum of Pi_l(n) L_lm y_lm(R); unshadowed, tabulated), or k_s times what the technique found
+// + background.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -15,6 +16,7 @@
 layout(constant_id = 0) const bool environment_gloss = true;
 layout(constant_id = 1) const bool background = true;
 layout(constant_id = 2) const float background_alpha = 1.0;
+layout(constant_id = 3) const bool technique_gloss = false;
 
 const float kPi = 3.14159265;
 const float kLargestHalf = 65504.0;
@@ -34,6 +36,8 @@ layout(set = 0, binding = 10) uniform sampler2D irradiance_indirect;
 layout(set = 0, binding = 11) uniform writeonly image2D direct;
 layout(set = 0, binding = 12) uniform writeonly image2D indirect;
 layout(set = 0, binding = 13) uniform sampler3D gloss;
+layout(set = 0, binding = 14) uniform sampler2D gloss_direct;
+layout(set = 0, binding = 15) uniform sampler2D gloss_indirect;
 
 /// The environment's picture in a direction; u = atan2(z, x) / 2 pi + 1/2, v = asin(y) / pi + 1/2 with v up.
 vec3 backgroundRadiance(Ray ray, vec3 step_y) {
@@ -61,11 +65,16 @@ void main() {
     first = vec4(texelFetch(emission, pixel, 0).rgb + fetch(local_light, pixel), 1.0);
     first.rgb += over_pi * fetch(irradiance_direct, pixel);
     further = over_pi * fetch(irradiance_indirect, pixel);
+    vec3 ks = texelFetch(specular, pixel, 0).rgb;
+    if (technique_gloss) {
+      first.rgb += ks * fetch(gloss_direct, pixel);
+      further += ks * fetch(gloss_indirect, pixel);
+    }
     if (environment_gloss) {
       vec3 position = ray.origin + ray.direction * eyeDepth(view, d);
       vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
       vec3 mirror = mirrorDirection(normal, directionToEye(view, position));
-      first.rgb += texelFetch(specular, pixel, 0).rgb * environmentGloss(gloss, mirror, phongExponent(kd.a));
+      first.rgb += ks * environmentGloss(gloss, mirror, phongExponent(kd.a));
     }
   } else if (background) {
     first.rgb = backgroundRadiance(ray, view.depth_range > 0.0 ? vec3(0.0) : view.step_y);

@@ -42,6 +42,23 @@ gpu::ImageRef upsample(gpu::FrameGraph& graph, const FrameInputs& inputs, const 
   return full;
 }
 
+/// Empty where there is no term.
+gpu::ImageRef sumOf(gpu::FrameGraph& graph, const GBuffer& gbuffer, const std::vector<gpu::ImageRef>& terms,
+                    const std::string& name) {
+  if (terms.empty()) return {};
+  gpu::ImageRef sum = terms[0];
+  for (std::size_t i = 1; i < terms.size(); ++i) {
+    const auto both = imageLike(graph, fmt::format("{}_sum_{}", name, i), gbuffer);
+    graph.compute("frame.add", frame_add_spv)
+        .read("a", sum)
+        .read("b", terms[i])
+        .write("both", both)
+        .dispatchOver(both);
+    sum = both;
+  }
+  return sum;
+}
+
 }  // namespace
 
 gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs) {
@@ -72,31 +89,30 @@ gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs
 gpu::ImageRef gatherIrradiance(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                                Path path) {
   const std::string name = path == Path::kDirect ? "frame.irradiance_direct" : "frame.irradiance_indirect";
-  gpu::ImageRef sum;
-  int count = 0;
+  std::vector<gpu::ImageRef> terms;
   for (const Irradiance& term : lighting.irradiance) {
     if (term.path != path) continue;
-    const std::string suffix = fmt::format("_{}", count++);
-    const gpu::ImageRef full = upsample(graph, inputs, term, name + suffix);
-    if (!sum) {
-      sum = full;
-      continue;
-    }
-    const auto both = imageLike(graph, fmt::format("{}_sum{}", name, suffix), inputs.gbuffer);
-    graph.compute("frame.add", frame_add_spv)
-        .read("a", sum)
-        .read("b", full)
-        .write("both", both)
-        .dispatchOver(both);
-    sum = both;
+    terms.push_back(upsample(graph, inputs, term, fmt::format("{}_{}", name, terms.size())));
   }
-  return sum;
+  return sumOf(graph, inputs.gbuffer, terms, name);
+}
+
+gpu::ImageRef gatherGloss(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                          Path path) {
+  std::vector<gpu::ImageRef> terms;
+  for (const Gloss& term : lighting.gloss) {
+    if (term.path == path) terms.push_back(term.image);
+  }
+  return sumOf(graph, inputs.gbuffer, terms,
+               path == Path::kDirect ? "frame.gloss_direct" : "frame.gloss_indirect");
 }
 
 Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                    gpu::ImageRef local_light, bool background) {
   const gpu::ImageRef direct = gatherIrradiance(graph, inputs, lighting, Path::kDirect);
   const gpu::ImageRef indirect = gatherIrradiance(graph, inputs, lighting, Path::kIndirect);
+  const gpu::ImageRef gloss_direct = gatherGloss(graph, inputs, lighting, Path::kDirect);
+  const gpu::ImageRef gloss_indirect = gatherGloss(graph, inputs, lighting, Path::kIndirect);
   // Where each sample is a pixel, these are the pictures already.
   const std::string suffix = inputs.gbuffer.supersample == 1 ? "" : "_samples";
   const Shaded shaded{imageLike(graph, "frame.direct" + suffix, inputs.gbuffer),
@@ -105,6 +121,7 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
   const auto or_black = [&](gpu::ImageRef image) { return image ? image : none; };
   graph.compute("frame.shade", frame_shade_spv)
       .specialize("environment_gloss", !lighting.has_environment_gloss && !inputs.environment.empty())
+      .specialize("technique_gloss", bool(gloss_direct) || bool(gloss_indirect))
       .specialize("background", background && !inputs.environment.empty())
       .specialize("background_alpha", background ? 1.0f : 0.0f)
       .read("frame_view", inputs.view)
@@ -119,6 +136,8 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
       .read("local_light", or_black(local_light))
       .read("irradiance_direct", or_black(direct))
       .read("irradiance_indirect", or_black(indirect))
+      .read("gloss_direct", or_black(gloss_direct))
+      .read("gloss_indirect", or_black(gloss_indirect))
       .write("direct", shaded.direct)
       .write("indirect", shaded.indirect)
       .dispatchOver(shaded.direct);

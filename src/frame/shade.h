@@ -22,7 +22,11 @@ gpu::ImageRef recordLocalLight(gpu::FrameGraph& graph, const FrameInputs& inputs
 gpu::ImageRef gatherIrradiance(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                                Path path);
 
-/// Puts emission, lamps, k_d / pi times irradiance, the environment's gloss and the background together:
+/// The same of gloss.
+gpu::ImageRef gatherGloss(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                          Path path);
+
+/// Puts emission, lamps, k_d / pi times irradiance, k_s times gloss and the background together:
 /// "frame.shade".
 Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Lighting& lighting,
                    gpu::ImageRef local_light, bool background);

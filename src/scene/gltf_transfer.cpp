@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gloam/sh.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,6 +17,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kVersion = 1;
+constexpr const char *kUnshadowed = "unshadowed", *kShadowed = "shadowed",
+                     *kInterreflected = "interreflected";
 constexpr int kUnsignedShort = 5123, kFloat = 5126;
 
 std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size) {
@@ -62,6 +65,14 @@ class TransferReader {
     if (found == json_.end()) fail(name, "missing");
     if (!found->is_string()) fail(name, fmt::format("{} is not a string", shortText(*found)));
     return found->get<std::string>();
+  }
+
+  float number(const char* name, float least, float most) const {
+    const Json& value = json_.at(name);
+    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most)) {
+      fail(name, fmt::format("{} is not a number from {} to {}", shortText(value), least, most));
+    }
+    return value.get<float>();
   }
 
   bool has(const char* name) const { return json_.contains(name); }
@@ -113,8 +124,14 @@ std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<con
   return fmt::format("{:08x}", crc ^ 0xFFFFFFFFu);
 }
 
+const char* transferKind(const Transfer& transfer) {
+  if (transfer.bounces > 0) return kInterreflected;
+  return transfer.directions > 0 ? kShadowed : kUnshadowed;
+}
+
 Json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, GlbBuilder& builder) {
   Json json = {{"version", kVersion},
+               {"kind", transferKind(transfer)},
                {"order", transfer.order},
                {"bounces", transfer.indirect.empty() ? 0 : transfer.bounces},
                {"directions", transfer.directions},
@@ -122,7 +139,30 @@ Json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, G
                {"geometry", geometryChecksum(mesh.positions, mesh.indices)},
                {"direct", addNumbers(transfer.direct, half_float, builder)}};
   if (!transfer.indirect.empty()) json["indirect"] = addNumbers(transfer.indirect, half_float, builder);
+  const GlossyTransfer& glossy = transfer.glossy;
+  if (glossy.empty()) return json;
+  json["glossy"] = {{"lightOrder", glossy.light_order},
+                    {"fieldOrder", glossy.field_order},
+                    {"visibility", addNumbers(glossy.visibility, half_float, builder)}};
+  if (!glossy.indirect.empty()) json["glossy"]["indirect"] = addNumbers(glossy.indirect, half_float, builder);
+  if (glossy.exponent > 0.0f) json["glossy"]["exponent"] = tidy(glossy.exponent);
   return json;
+}
+
+static GlossyTransfer readGlossy(GltfAccessors& accessors, const Json& json, const std::string& where,
+                                 std::size_t vertices, bool half_float, bool has_bounces) {
+  const TransferReader reader(accessors, json, where);
+  GlossyTransfer glossy;
+  glossy.field_order = reader.integer("fieldOrder", 1, sh::kMaxOrder);
+  glossy.light_order = reader.integer("lightOrder", 1, glossy.field_order);
+  if (reader.has("exponent")) glossy.exponent = reader.number("exponent", 1.0f, 1.0e6f);
+  glossy.visibility = reader.numbers("visibility", vertices * glossy.visibilityCount(), half_float);
+  if (has_bounces) {
+    glossy.indirect = reader.numbers("indirect", 3 * vertices * glossy.matrixCount(), half_float);
+  } else if (reader.has("indirect")) {
+    reader.fail("indirect", "there are no bounces");
+  }
+  return glossy;
 }
 
 std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Json& extension,
@@ -137,6 +177,10 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
   transfer->order = reader.integer("order", 1, sh::kMaxOrder);
   transfer->bounces = reader.integer("bounces", 0, 1000000);
   transfer->directions = reader.integer("directions", 0, 0x7fffffff);
+  // For information, and so taken as far as it is understood: transfer that was sampled along no direction is unshadowed.
+  const Json kind = extension.value("kind", Json());
+  if (kind == kUnshadowed && transfer->bounces == 0) transfer->directions = 0;
+  if (kind == kShadowed) transfer->directions = std::max(transfer->directions, 1);
   const std::string format = reader.word("format");
   if (format != "float" && format != "half") {
     reader.fail("format", "neither \"float\" nor \"half\"");
@@ -152,6 +196,10 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
     transfer->indirect = reader.numbers("indirect", 3 * count, format == "half");
   } else if (reader.has("indirect")) {
     reader.fail("indirect", "there are no bounces");
+  }
+  if (reader.has("glossy")) {
+    transfer->glossy = readGlossy(accessors, extension.at("glossy"), where + ".glossy", positions.size(),
+                                  format == "half", transfer->bounces > 0);
   }
   return transfer;
 }
@@ -173,6 +221,12 @@ std::shared_ptr<const Transfer> transferOfVertices(const Transfer& transfer,
   const std::size_t coefficients = std::size_t(transfer.order * transfer.order);
   pick(transfer.direct, coefficients, picked->direct);
   pick(transfer.indirect, 3 * coefficients, picked->indirect);
+  const GlossyTransfer& glossy = transfer.glossy;
+  picked->glossy.light_order = glossy.light_order;
+  picked->glossy.field_order = glossy.field_order;
+  picked->glossy.exponent = glossy.exponent;
+  pick(glossy.visibility, glossy.visibilityCount(), picked->glossy.visibility);
+  pick(glossy.indirect, 3 * glossy.matrixCount(), picked->glossy.indirect);
   return picked;
 }
 

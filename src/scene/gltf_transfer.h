@@ -23,6 +23,9 @@ inline constexpr const char* kTransferExtension = "GLOAM_precomputed_transfer";
 /// as little-endian 32-bit numbers. Eight hexadecimal digits.
 std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
+/// What a transfer holds: "unshadowed" (DU, which samples no direction), "shadowed" (DS) or "interreflected" (DI).
+const char* transferKind(const Transfer& transfer);
+
 /// The extension's object; its data goes into the builder as accessors. Half floats clamp at 65504.
 nlohmann::json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, GlbBuilder& builder);
 

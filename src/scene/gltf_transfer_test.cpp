@@ -35,6 +35,21 @@ Scene bakedScene(int bounces) {
   return scene;
 }
 
+/// With glossy transfer from two bands to three.
+Scene glossyScene(int bounces) {
+  Scene scene = bakedScene(bounces);
+  auto transfer = std::make_shared<Transfer>(*scene.meshes[0].transfer);
+  GlossyTransfer& glossy = transfer->glossy;
+  glossy.light_order = 2;
+  glossy.field_order = 3;
+  const std::size_t vertices = scene.meshes[0].vertexCount();
+  for (std::size_t i = 0; i < vertices * 16; ++i) glossy.visibility.push_back(std::sin(0.7f * float(i)));
+  for (std::size_t i = 0; i < vertices * 36 * 3 && bounces > 0; ++i)
+    glossy.indirect.push_back(std::cos(0.3f * float(i)));
+  scene.meshes[0].transfer = transfer;
+  return scene;
+}
+
 fs::path temporary() {
   return fs::temp_directory_path() / "gloam_transfer_test.glb";
 }
@@ -75,8 +90,8 @@ Json& extensionOf(Glb& glb) {
 }
 
 /// Writes a baked scene, breaks it, and gives what the reader says.
-std::string messageAfter(const std::function<void(Glb&)>& breakIt) {
-  gloam::writeGlb(bakedScene(2), temporary());
+std::string messageAfter(const std::function<void(Glb&)>& breakIt, const Scene& scene = bakedScene(2)) {
+  gloam::writeGlb(scene, temporary());
   Glb glb = readGlb(temporary());
   breakIt(glb);
   writeGlb(glb, temporary());
@@ -201,6 +216,53 @@ TEST(Transfer, ErrorsNameTheField) {
   contains(messageAfter([](Glb& g) { extensionOf(g)["format"] = "half"; }), ".direct: accessors[");
   contains(messageAfter([](Glb& g) { extensionOf(g)["geometry"] = "12345678"; }), "belongs to another mesh");
   contains(messageAfter([](Glb& g) { extensionOf(g) = 3; }), "an object was expected");
+}
+
+TEST(Transfer, GlossyPartComesBack) {
+  for (const int bounces : {0, 2}) {
+    for (const bool half_float : {false, true}) {
+      Scene scene = glossyScene(bounces);
+      gloam::writeGlb(scene, temporary(), {half_float});
+      const Scene again = loadScene(temporary().string());
+      fs::remove(temporary());
+      const GlossyTransfer &a = scene.meshes[0].transfer->glossy, &b = again.meshes[0].transfer->glossy;
+      EXPECT_EQ(b.light_order, 2);
+      EXPECT_EQ(b.field_order, 3);
+      EXPECT_EQ(b.exponent, 0.0f);
+      ASSERT_EQ(a.visibility.size(), b.visibility.size());
+      ASSERT_EQ(a.indirect.size(), b.indirect.size());
+      for (std::size_t i = 0; i < a.indirect.size(); ++i)
+        ASSERT_EQ(b.indirect[i], half_float ? floatFromHalf(halfFromFloat(a.indirect[i])) : a.indirect[i]);
+      for (std::size_t i = 0; i < a.visibility.size(); ++i)
+        ASSERT_EQ(b.visibility[i],
+                  half_float ? floatFromHalf(halfFromFloat(a.visibility[i])) : a.visibility[i]);
+    }
+  }
+  Scene fixed = glossyScene(1);
+  auto transfer = std::make_shared<Transfer>(*fixed.meshes[0].transfer);
+  transfer->glossy.exponent = 7.5f;
+  fixed.meshes[0].transfer = transfer;
+  gloam::writeGlb(fixed, temporary());
+  EXPECT_EQ(loadScene(temporary().string()).meshes[0].transfer->glossy.exponent, 7.5f);
+  fs::remove(temporary());
+}
+
+TEST(Transfer, GlossyErrorsNameTheField) {
+  const auto expect = [](const std::function<void(Json&)>& breakIt, const char* part) {
+    const std::string message =
+        messageAfter([&](Glb& glb) { breakIt(extensionOf(glb)["glossy"]); }, glossyScene(2));
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect([](Json& g) { g = 5; }, ".glossy: an object was expected");
+  expect([](Json& g) { g.erase("lightOrder"); }, ".glossy.lightOrder: missing");
+  expect([](Json& g) { g["lightOrder"] = 4; }, ".glossy.lightOrder: 4 is not a whole number from 1 to 3");
+  expect([](Json& g) { g["fieldOrder"] = 7; }, ".glossy.fieldOrder: 7");
+  expect([](Json& g) { g["fieldOrder"] = 4; }, ".glossy.visibility: accessors[");
+  expect([](Json& g) { g.erase("visibility"); }, ".glossy.visibility: missing");
+  expect([](Json& g) { g.erase("indirect"); }, ".glossy.indirect: missing");
+  expect([](Json& g) { g["indirect"] = g["visibility"]; }, ".glossy.indirect: accessors[");
+  expect([](Json& g) { g["exponent"] = 0; }, ".glossy.exponent: 0 is not a number from 1");
+  expect([](Json& g) { g["exponent"] = "sharp"; }, ".glossy.exponent: \"sharp\"");
 }
 
 TEST(Transfer, ValuesThatAreNotNumbersAreRefused) {

@@ -61,6 +61,8 @@ void remapVertices(Mesh& mesh, std::span<const std::uint32_t> source) {
     const auto coefficients = static_cast<std::size_t>(transfer->order * transfer->order);
     remapArray(transfer->direct, source, coefficients);
     remapArray(transfer->indirect, source, 3 * coefficients);
+    remapArray(transfer->glossy.visibility, source, transfer->glossy.visibilityCount());
+    remapArray(transfer->glossy.indirect, source, 3 * transfer->glossy.matrixCount());
     mesh.transfer = std::move(transfer);
   }
 }

@@ -82,6 +82,10 @@ class SceneCheck {
       require(m.transfer->direct.size() == size &&
                   (m.transfer->indirect.empty() || m.transfer->indirect.size() == 3 * size),
               where, "transfer does not fit the vertices");
+      const GlossyTransfer& glossy = m.transfer->glossy;
+      require(glossy.visibility.size() == n * glossy.visibilityCount() &&
+                  (glossy.indirect.empty() || glossy.indirect.size() == 3 * n * glossy.matrixCount()),
+              where, "glossy transfer does not fit the vertices");
     }
   }
 

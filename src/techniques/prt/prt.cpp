@@ -13,6 +13,7 @@
 
 #include "scene/transforms.h"
 #include "shaders/prt_shaders.h"
+#include "techniques/prt/prt_glossy.h"
 
 namespace gloam::prt {
 
@@ -80,6 +81,11 @@ const TechniqueInfo& info() {
        .choices = {"none", "hann", "lanczos", "auto"},
        .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"},
       {.name = "indirect", .default_value = true, .help = "light between surfaces, where it is baked"},
+      {.name = "glossy",
+       .default_value = std::string("matrix"),
+       .choices = {"matrix", "cheap", "unshadowed"},
+       .help = "gloss where it is baked: by matrices; by visibility alone, times the light; or as if nothing "
+               "were in the way"},
       {.name = "half_float",
        .default_value = false,
        .help = "keep transfer as halves on the device: half the memory"}};
@@ -103,6 +109,30 @@ const TransferBuffers& Prt::transferFor(const frame::FrameInputs& inputs, const 
   return *transfer_;
 }
 
+const GlossyBuffers& Prt::glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options) {
+  const std::uint64_t revision = inputs.scene.layoutRevision();
+  if (glossy_ && glossy_revision_ == revision && glossy_->options() == options) return *glossy_;
+  glossy_.reset();
+  glossy_.emplace(device_, inputs.scene, options);
+  glossy_revision_ = revision;
+  return *glossy_;
+}
+
+void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,
+                   frame::Lighting& lighting) {
+  const std::string choice = settings.choice("glossy");
+  if (choice == "unshadowed") return;
+  const GlossyBuffers& glossy = glossyFor(inputs, {.order = settings.integer("order"),
+                                                   .cheap = choice == "cheap",
+                                                   .half_float = settings.flag("half_float"),
+                                                   .chunk_bytes = chunk_bytes_});
+  if (glossy.empty()) return;
+  const sh::ShRgb light =
+      frame::windowed(inputs.environment.sh(), glossy.lightOrder(), windowOf(settings.choice("window")));
+  lighting.gloss = recordGloss(graph, inputs, glossy, light, settings.flag("indirect"));
+  lighting.has_environment_gloss = true;
+}
+
 frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                             const Settings& settings) {
   const TransferBuffers& transfer = transferFor(inputs, {.order = settings.integer("order"),
@@ -111,6 +141,9 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   if (!transfer.unbakedMeshes().empty())
     inputs.warnings.push_back(fmt::format("lit without shadows, as they move or are not baked: {}",
                                           fmt::join(transfer.unbakedMeshes(), ", ")));
+  if (settings.integer("order") > transfer.order())
+    inputs.warnings.push_back(fmt::format("prt.order {}: the scene is baked with {} bands",
+                                          settings.integer("order"), transfer.order()));
   if (inputs.environment.empty()) return {};
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), transfer.order(), windowOf(settings.choice("window")));
@@ -136,6 +169,7 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   frame::Lighting lighting{.irradiance = {{.image = direct, .path = frame::Path::kDirect}}};
   if (transfer.hasIndirect() && settings.flag("indirect"))
     lighting.irradiance.push_back({.image = indirect, .path = frame::Path::kIndirect});
+  addGloss(graph, inputs, settings, lighting);
   return lighting;
 }
 

@@ -1,12 +1,13 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Run time of diffuse precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-4). README.md has
-// the rest; baking is prt_bake.h.
+// Run time of precomputed radiance transfer (Sloan, Kautz, Snyder 2002; PRT-1, PRT-2, PRT-4, PRT-8). README.md has
+// the rest; baking is gloam/bake.h.
 #pragma once
 
 #include <optional>
 
+#include "techniques/prt/prt_glossy_transfer.h"
 #include "techniques/prt/prt_transfer.h"
 #include "techniques/technique.h"
 
@@ -25,11 +26,16 @@ class Prt : public Technique {
 
  private:
   const TransferBuffers& transferFor(const frame::FrameInputs& inputs, const TransferOptions& options);
+  const GlossyBuffers& glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options);
+  void addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,
+                frame::Lighting& lighting);
 
   gpu::Device& device_;
   std::size_t chunk_bytes_;
   std::optional<TransferBuffers> transfer_;
   std::uint64_t layout_revision_ = 0;
+  std::optional<GlossyBuffers> glossy_;
+  std::uint64_t glossy_revision_ = 0;
 };
 
 }  // namespace gloam::prt

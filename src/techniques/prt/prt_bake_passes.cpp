@@ -26,14 +26,17 @@ constexpr float kPi = sampling::kPi;
 }  // namespace
 
 BakePasses::BakePasses(const Scene& scene, const PosedScene& posed, const BakePoints& points,
-                       const trace::Tracer& tracer, const DirectionTables& tables)
-    : scene_(scene), points_(points), tracer_(tracer), tables_(tables) {
+                       const trace::Tracer& tracer, const DirectionTables& tables, const GlossyTables* glossy)
+    : scene_(scene), points_(points), tracer_(tracer), tables_(tables), glossy_(glossy) {
   for (const Instance& instance : posed.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material& material = scene.materials[std::size_t(mesh.material)];
     Surface surface{&mesh, material.double_sided};
     surface.uniform = !material.base_color_map && !material.metallic_roughness_map && mesh.colors.empty();
     if (surface.uniform && !mesh.indices.empty()) surface.albedo = trace::diffuseAlbedo(scene, mesh, {});
+    surface.lobes =
+        brdf::makeLobes(material.base_color, material.metallic, material.roughness, material.specular);
+    if (glossy_ != nullptr) surface.glossy = glossy_->instances[surfaces_.size()] != 0;
     surfaces_.push_back(surface);
   }
   probes_ = sampling::fibonacciSphere(128);
@@ -87,6 +90,7 @@ std::size_t BakePasses::shadowBlock(std::size_t block, BakeState& state) const {
     site.blocked_cosine = cosine_from_y0 * sum[0];
     rays += digOut(point, site, &blocked[i * tiles], sum);
     site.blocked_cosine = cosine_from_y0 * sum[0];
+    if (state.glossy.has(point)) projectVisibility(point, &blocked[i * tiles], state);
     const sh::Sh unshadowed = sh::rotateZonal(cosine, points_.normals[point]);
     float* direct = &state.direct[point * coefficients];
     for (std::size_t c = 0; c < coefficients; ++c) direct[c] = unshadowed[int(c)] - solid_angle * sum[c];
@@ -161,6 +165,7 @@ std::size_t BakePasses::traceHits(std::size_t point, const BakeState& state,
 
 // Every bounce has the same hits: they are kept for the next one, as many as memory is granted for.
 std::size_t BakePasses::bounceBlock(std::size_t block, BakeState& state) {
+  if (!state.glossy.empty()) return glossyBounceBlock(block, state);
   const std::size_t begin = state.blockBegin(block), count = state.blockEnd(block) - begin;
   KeptHits fresh;
   const bool kept = kept_hits_[block].complete;

@@ -4,6 +4,7 @@
 // Points that cannot show what they see: vertices inside other geometry, or in nooks smaller than their mesh. Left alone
 // they would be interpolated as black spots into what is visible.
 #include <algorithm>
+#include <tuple>
 
 #include "math/sampling.h"
 #include "techniques/prt/prt_bake_kernels.h"
@@ -21,6 +22,38 @@ constexpr float kBuriedByAll = 0.9f;
 // a box, say. Its darkness is real, but its mesh would spread it over whole cells.
 constexpr float kCramped = 0.6f;
 constexpr float kCrampedReach = 0.5f;
+
+// A face that lies upside down in its surface shares places with it, but no points: its own look into the body, and no
+// neighbour of theirs is open. Its back is what is seen. Such points get the mean of the known ones at their place that
+// look the other way. Returns those that found any.
+std::vector<std::uint32_t> fillFromOtherSide(const BakePoints& points, std::vector<std::uint32_t> waiting,
+                                             const std::vector<std::uint8_t>& known, const PointRows& rows) {
+  const std::size_t row = rows.size;
+  constexpr float kOpposedCos = 0.5f;
+  const auto place = [&](std::uint32_t p) {
+    const glm::vec3& at = points.positions[p];
+    return std::tuple(at.x, at.y, at.z);
+  };
+  std::ranges::sort(waiting, {}, place);
+  std::vector<double> sums(waiting.size() * row, 0.0);
+  std::vector<int> found(waiting.size(), 0);
+  for (std::uint32_t q = 0; q < points.size(); ++q) {
+    if (!known[q]) continue;
+    for (const std::uint32_t& p : std::ranges::equal_range(waiting, place(q), {}, place)) {
+      if (glm::dot(points.normals[p], points.normals[q]) > -kOpposedCos) continue;
+      const std::size_t w = std::size_t(&p - waiting.data());
+      ++found[w];
+      for (std::size_t i = 0; i < row; ++i) sums[w * row + i] += double(rows.of(q)[i]);
+    }
+  }
+  std::vector<std::uint32_t> filled;
+  for (std::size_t w = 0; w < waiting.size(); ++w) {
+    if (found[w] == 0) continue;
+    for (std::size_t i = 0; i < row; ++i) rows.of(waiting[w])[i] = float(sums[w * row + i] / found[w]);
+    filled.push_back(waiting[w]);
+  }
+  return filled;
+}
 
 }  // namespace
 
@@ -108,28 +141,29 @@ std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::uint16_t* 
 
 // Mean of the neighbours whose value was known before this ring; false where there are none.
 bool BakePasses::fillFromNeighbours(std::uint32_t point, const std::vector<std::uint8_t>& known,
-                                    std::size_t row, std::vector<float>& values) const {
-  std::vector<double> sum(row, 0.0);
+                                    const PointRows& rows) const {
+  std::vector<double> sum(rows.size, 0.0);
   int neighbours = 0;
   for (const std::uint32_t face : points_.facesOf(point)) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t q = points_.triangles[face][k];
       if (!known[q] || q == point) continue;
       ++neighbours;
-      for (std::size_t i = 0; i < row; ++i) sum[i] += double(values[q * row + i]);
+      for (std::size_t i = 0; i < rows.size; ++i) sum[i] += double(rows.of(q)[i]);
     }
   }
-  for (std::size_t i = 0; i < row && neighbours > 0; ++i)
-    values[point * row + i] = float(sum[i] / neighbours);
+  for (std::size_t i = 0; i < rows.size && neighbours > 0; ++i)
+    rows.of(point)[i] = float(sum[i] / neighbours);
   return neighbours > 0;
 }
 
 // Ring by ring from the open. After the first ring what is cramped keeps its own: it lies in a gap that its mesh shows.
-// Meshes that are buried as a whole keep what they have.
-void BakePasses::fillHidden(const BakeState& state, std::size_t row, std::vector<float>& values) const {
+// Meshes that are buried as a whole keep what they have, unless they lie upside down in the surface of another.
+void BakePasses::fillHidden(const BakeState& state, const PointRows& rows) const {
   std::vector<std::uint8_t> known(state.points);
   std::vector<std::uint32_t> waiting, filled;
   for (std::size_t p = 0; p < state.points; ++p) {
+    if (!rows.has(p)) continue;
     known[p] = state.sites[p].place == Place::kOpen;
     if (!known[p]) waiting.push_back(std::uint32_t(p));
   }
@@ -137,13 +171,17 @@ void BakePasses::fillHidden(const BakeState& state, std::size_t row, std::vector
     std::vector<std::uint32_t> later;
     filled.clear();
     for (const std::uint32_t p : waiting) {
-      const bool done = fillFromNeighbours(p, known, row, values);
+      const bool done = fillFromNeighbours(p, known, rows);
       const bool stays = first_ring && state.sites[p].place == Place::kCramped;
       (done || stays ? filled : later).push_back(p);
     }
-    if (filled.empty()) return;
-    for (const std::uint32_t p : filled) known[p] = 1;
     waiting.swap(later);
+    if (filled.empty()) {
+      filled = fillFromOtherSide(points_, waiting, known, rows);
+      if (filled.empty()) return;
+    }
+    for (const std::uint32_t p : filled) known[p] = 1;
+    std::erase_if(waiting, [&](std::uint32_t p) { return known[p] != 0; });
   }
 }
 

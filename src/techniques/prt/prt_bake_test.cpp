@@ -188,6 +188,31 @@ TEST(PrtBake, WhatIsHiddenInsideDoesNotDarkenWhatIsSeen) {
 }
 
 // A pebble above one vertex of a coarse floor is not spread over the cells around it; a table above many is a shadow.
+// A face that lies upside down in a closed surface has vertices of its own that look into the body. What is seen of it is
+// its back, which is as bright as what surrounds it.
+TEST(PrtBake, FacesUpsideDownAreNotBlack) {
+  for (const bool double_sided : {false, true}) {
+    Mesh mesh = sphereMesh(12, 24);
+    const std::size_t face = mesh.triangleCount() / 2, first = mesh.vertexCount();
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& corner = mesh.indices[3 * face + k];
+      mesh.positions.push_back(mesh.positions[corner]);
+      mesh.normals.push_back(-mesh.normals[corner]);
+      corner = std::uint32_t(first + k);
+    }
+    std::swap(mesh.indices[3 * face], mesh.indices[3 * face + 1]);
+    Scene scene = sceneOf(mesh);
+    scene.materials[0].double_sided = double_sided;
+    const Scene baked = bakeTransfer(scene, interreflected(2));
+    const std::vector<bool> used = usedVertices(baked.meshes[0]);
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (used[v]) {
+        EXPECT_NEAR(brightness(baked.meshes[0], v), 1.0f, 0.02f) << v << " of " << first;
+      }
+    }
+  }
+}
+
 TEST(PrtBake, NooksSmallerThanTheMeshDoNotBlackenIt) {
   for (const float half : {0.1f, 2.5f}) {
     Scene scene = sceneOf(gridMesh(4.0f, 8));

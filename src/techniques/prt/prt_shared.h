@@ -9,6 +9,10 @@ GLOAM_SHARED_BEGIN(prt)
 GLOAM_SHARED_CONST uint kBlockVertices = 64u;
 GLOAM_SHARED_CONST uint kUnbaked = 0xffffffffu;
 
+/// The sharpest Phong lobe that bands of radiance show, by their number: its truncated kernel dips to no more than -8 % of
+/// its peak. Sharper materials are shown with this exponent.
+GLOAM_SHARED_CONST float kSharpestLobe[7] = {1.0f, 1.0f, 1.0f, 2.0f, 3.0f, 10.0f, 12.0f};
+
 /// One work group: some vertices of one instance.
 struct VertexBlock {
   uint transfer;  // block in the transfer buffers of this pass
@@ -30,6 +34,14 @@ struct UnbakedRow {
   vec3 sh[36];
 };
 GLOAM_SHARED_SIZE(UnbakedRow, 432)
+
+/// An instance whose gloss is baked, or not.
+struct GlossRow {
+  mat3 object_from_world;  // its rotation alone
+  uint first_vertex;       // of its vertices' radiance; kUnbaked: there is none
+  float exponent;          // of a lobe that is baked in; 0: the material's
+};
+GLOAM_SHARED_SIZE(GlossRow, 44)
 
 GLOAM_SHARED_END
 #endif

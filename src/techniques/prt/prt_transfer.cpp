@@ -5,40 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-
-#include "gpu/format.h"
 
 namespace gloam::prt {
 
 namespace {
-
-std::uint32_t blockCount(std::uint32_t vertices) {
-  return (vertices + kBlockVertices - 1) / kBlockVertices;
-}
-
-/// One vertex after another becomes blocks of kBlockVertices, coefficient after coefficient; the last block
-/// is padded with 0. `kept` of `stored` values a vertex are taken.
-void appendBlocks(std::vector<float>& to, const std::vector<float>& from, std::uint32_t first_vertex,
-                  std::uint32_t vertices, std::size_t stored, std::size_t kept) {
-  const std::size_t start = to.size();
-  to.resize(start + std::size_t(blockCount(vertices)) * kept * kBlockVertices, 0.0f);
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    const std::size_t block = v / kBlockVertices, lane = v % kBlockVertices;
-    for (std::size_t i = 0; i < kept; ++i) {
-      to[start + (block * kept + i) * kBlockVertices + lane] =
-          from[(std::size_t(first_vertex) + v) * stored + i];
-    }
-  }
-}
-
-gpu::Buffer uploaded(gpu::Device& device, const std::string& name, const std::vector<float>& values,
-                     bool half_float) {
-  if (!half_float) return gpu::Buffer(device, name, values);
-  std::vector<std::uint16_t> halves(values.size());
-  std::transform(values.begin(), values.end(), halves.begin(), gpu::halfFromFloat);
-  return gpu::Buffer(device, name, halves);
-}
 
 void checkSizes(const frame::GpuMesh& mesh) {
   const Transfer& transfer = *mesh.transfer;
@@ -56,92 +26,6 @@ void checkSizes(const frame::GpuMesh& mesh) {
                     transfer.order, mesh.vertex_count, expected, transfer.direct.size(),
                     transfer.indirect.size()));
 }
-
-/// Vertices of a mesh in one chunk.
-struct Part {
-  std::size_t chunk;
-  std::uint32_t first_block, first_vertex, vertices;
-};
-
-/// Puts meshes end to end into chunks, each mesh once, cut where a chunk is full.
-class Packer {
- public:
-  Packer(gpu::Device& device, int order, bool has_indirect, const TransferOptions& options)
-      : device_(device),
-        kept_(std::size_t(order) * std::size_t(order)),
-        has_indirect_(has_indirect),
-        half_(options.half_float) {
-    const std::size_t block_bytes = kept_ * (has_indirect ? 3 : 1) * kBlockVertices * (half_ ? 2 : 4);
-    const std::uint64_t bytes =
-        options.chunk_bytes > 0 ? options.chunk_bytes : device.limits().max_storage_bytes;
-    limit_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / block_bytes, 1, 1u << 24));
-    chunks_.emplace_back();
-    blocks_.emplace_back();
-  }
-
-  const std::vector<Part>& partsOf(std::uint32_t mesh_index, const frame::GpuMesh& mesh) {
-    const auto [place, is_new] = parts_.try_emplace(mesh_index);
-    for (std::uint32_t first = 0; is_new && first < mesh.vertex_count;) {
-      if (used_ == limit_) startChunk();
-      const std::uint32_t taken = std::min(mesh.vertex_count - first, (limit_ - used_) * kBlockVertices);
-      place->second.push_back({chunks_.size() - 1, used_, first, taken});
-      append(*mesh.transfer, first, taken);
-      used_ += blockCount(taken);
-      first += taken;
-    }
-    return place->second;
-  }
-
-  void addBlocks(const Part& part, std::uint32_t light, std::uint32_t output) {
-    for (std::uint32_t b = 0; b < blockCount(part.vertices); ++b) {
-      blocks_[part.chunk].push_back({part.first_block + b, light,
-                                     output + part.first_vertex + b * kBlockVertices,
-                                     std::min(part.vertices - b * kBlockVertices, kBlockVertices)});
-    }
-  }
-
-  std::vector<TransferChunk> finish() {
-    uploadValues();
-    for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      chunks_[c].block_count = static_cast<std::uint32_t>(blocks_[c].size());
-      chunks_[c].blocks = gpu::Buffer(device_, "prt.blocks", blocks_[c]);
-    }
-    return std::move(chunks_);
-  }
-
- private:
-  void append(const Transfer& transfer, std::uint32_t first, std::uint32_t count) {
-    const std::size_t stored = std::size_t(transfer.order) * std::size_t(transfer.order);
-    appendBlocks(direct_, transfer.direct, first, count, stored, kept_);
-    if (!has_indirect_) return;
-    if (transfer.indirect.empty()) {
-      indirect_.resize(direct_.size() * 3, 0.0f);
-    } else {
-      appendBlocks(indirect_, transfer.indirect, first, count, 3 * stored, 3 * kept_);
-    }
-  }
-  void uploadValues() {
-    chunks_.back().direct = uploaded(device_, "prt.transfer_direct", direct_, half_);
-    chunks_.back().indirect = uploaded(device_, "prt.transfer_indirect", indirect_, half_);
-    direct_.clear();
-    indirect_.clear();
-  }
-  void startChunk() {
-    uploadValues();
-    chunks_.emplace_back();
-    blocks_.emplace_back();
-    used_ = 0;
-  }
-
-  gpu::Device& device_;
-  std::size_t kept_;
-  bool has_indirect_, half_;
-  std::uint32_t limit_ = 0, used_ = 0;
-  std::vector<float> direct_, indirect_;  // of the last chunk
-  std::vector<TransferChunk> chunks_;
-  std::vector<std::vector<VertexBlock>> blocks_;
-  std::map<std::uint32_t, std::vector<Part>> parts_;
-};
 
 }  // namespace
 
@@ -173,14 +57,26 @@ void TransferBuffers::findLit(const frame::GpuScene& scene) {
 }
 
 void TransferBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& scene) {
-  Packer packer(device, order_, has_indirect_, options_);
+  const std::size_t kept = std::size_t(order_) * std::size_t(order_);
+  const bool half = options_.half_float;
+  Packer packer(device, "prt.transfer", wordCount(kept, half), has_indirect_ ? wordCount(3 * kept, half) : 0,
+                options_.chunk_bytes);
   std::vector<std::uint32_t> first_outputs(scene.instances().size(), kUnbaked);
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const std::uint32_t mesh_index = scene.instances()[lit_[i]].mesh;
     const auto light = static_cast<std::uint32_t>(i * std::size_t(order_) * std::size_t(order_));
     const auto output = static_cast<std::uint32_t>(output_vertices_);
     first_outputs[lit_[i]] = output;
-    for (const Part& part : packer.partsOf(mesh_index, scene.meshes()[mesh_index]))
+    const Transfer& transfer = *scene.meshes()[mesh_index].transfer;
+    const std::size_t stored = std::size_t(transfer.order) * std::size_t(transfer.order);
+    const std::vector<float> none(transfer.indirect.empty() ? 3 * kept : 0, 0.0f);
+    const auto fill = [&](std::uint32_t v, std::uint32_t* direct, std::uint32_t* indirect) {
+      packWords({&transfer.direct[v * stored], kept}, half, direct);
+      if (has_indirect_)
+        packWords({none.empty() ? &transfer.indirect[v * 3 * stored] : none.data(), 3 * kept}, half,
+                  indirect);
+    };
+    for (const Packer::Part& part : packer.partsOf(mesh_index, scene.meshes()[mesh_index].vertex_count, fill))
       packer.addBlocks(part, light, output);
     output_vertices_ += scene.meshes()[mesh_index].vertex_count;
   }

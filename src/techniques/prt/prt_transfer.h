@@ -5,7 +5,7 @@
 #pragma once
 
 #include "frame/frame_inputs.h"
-#include "techniques/prt/prt_shared.h"
+#include "techniques/prt/prt_packer.h"
 
 namespace gloam::prt {
 
@@ -14,15 +14,6 @@ struct TransferOptions {
   bool half_float = false;
   std::size_t chunk_bytes = 0;  ///< largest buffer of transfer; 0: what the device takes
   bool operator==(const TransferOptions&) const = default;
-};
-
-/// Transfer of some meshes: as many as fit into one storage buffer. Block b, coefficient i, vertex v stand at
-/// (b * coefficients + i) * kBlockVertices + v, for `indirect` with three coefficients (R, G, B) where
-/// `direct` has one. Halves: two vertices a word.
-struct TransferChunk {
-  gpu::Buffer direct, indirect;  ///< `indirect` is empty where no mesh has bounces
-  gpu::Buffer blocks;            ///< VertexBlock, one a work group
-  std::uint32_t block_count = 0;
 };
 
 class TransferBuffers {

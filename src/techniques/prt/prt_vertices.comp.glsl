@@ -19,14 +19,16 @@ layout(scalar, set = 0, binding = 3) readonly buffer Lights { vec3 at[]; } light
 layout(scalar, set = 0, binding = 4) writeonly buffer VertexLights { VertexLight at[]; } vertex_light;
 layout(scalar, push_constant) uniform Push { uint block_count; } push;
 
-/// Value number i of a buffer of floats, or of halves, two a word.
-float direct(uint i) {
-  if (!half_float) return uintBitsToFloat(transfer_direct.at[i]);
-  return unpackHalf2x16(transfer_direct.at[i >> 1])[i & 1u];
+/// Value i of a lane's vertex. Halves stand two a word.
+float direct(uint block, uint i, uint lane) {
+  if (!half_float) return uintBitsToFloat(transfer_direct.at[(block * uint(coefficients) + i) * kBlockVertices + lane]);
+  uint words = uint(coefficients + 1) / 2u;
+  return unpackHalf2x16(transfer_direct.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
 }
-float indirect(uint i) {
-  if (!half_float) return uintBitsToFloat(transfer_indirect.at[i]);
-  return unpackHalf2x16(transfer_indirect.at[i >> 1])[i & 1u];
+float indirect(uint block, uint i, uint lane) {
+  if (!half_float) return uintBitsToFloat(transfer_indirect.at[(block * 3u * uint(coefficients) + i) * kBlockVertices + lane]);
+  uint words = uint(3 * coefficients + 1) / 2u;
+  return unpackHalf2x16(transfer_indirect.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
 }
 
 void main() {
@@ -36,13 +38,12 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   if (lane >= block.count) return;
   VertexLight sum = VertexLight(vec3(0.0), vec3(0.0));
-  uint first = block.transfer * uint(coefficients) * kBlockVertices + lane;
   for (uint i = 0u; i < uint(coefficients); ++i) {
     vec3 light = lights.at[block.light + i];
-    sum.direct += light * direct(first + i * kBlockVertices);
+    sum.direct += light * direct(block.transfer, i, lane);
     if (has_indirect) {
-      uint at = (block.transfer * uint(coefficients) + i) * 3u * kBlockVertices + lane;
-      sum.indirect += light * vec3(indirect(at), indirect(at + kBlockVertices), indirect(at + 2u * kBlockVertices));
+      sum.indirect += light * vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
+                                   indirect(block.transfer, 3u * i + 2u, lane));
     }
   }
   vertex_light.at[block.output_ + lane] = sum;

@@ -1,0 +1,73 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sloan, Kautz, Snyder 2002, section 4.2, equation 13: a vertex turns the light into transferred radiance by its matrix; the
+// radiance is convolved with the Phong-like kernel and taken at the mirror direction R. Differs from the paper: convolution
+// and R a pixel, about the shading normal, so that normal maps and maps of roughness act; GS and GI - GS stay apart.
+#include "techniques/prt/prt_glossy.h"
+
+#include <algorithm>
+
+#include "shaders/prt_shaders.h"
+
+namespace gloam::prt {
+
+std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool indirect) {
+  // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
+  std::vector<glm::vec3> light_rows;
+  float greatest = 0.0f;
+  for (const glm::vec3& c : light.coefficients())
+    greatest = std::max({greatest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+  sh::ShRgb exposed = light;
+  if (greatest > 0.0f) exposed *= glm::vec3(1.0f / greatest);
+  light_rows = glossy.lightRows(exposed, inputs.scene);
+
+  const gpu::BufferRef lights = graph.upload("prt.gloss_lights", light_rows);
+  const auto fields = graph.create(
+      "prt.gloss_fields", gpu::BufferDesc{.bytes = glossy.outputVertices() * glossy.fieldWords() * 4});
+  const gpu::Limits& limits = graph.device().limits();
+  for (const TransferChunk& chunk : glossy.chunks()) {
+    const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
+    const std::uint32_t rows = (chunk.block_count + columns - 1) / columns;
+    graph.compute("prt.gloss_vertices", prt_gloss_vertices_spv)
+        .specialize("light_order", glossy.lightOrder())
+        .specialize("field_order", glossy.fieldOrder())
+        .specialize("has_indirect", glossy.hasIndirect())
+        .specialize("half_float", glossy.options().half_float)
+        .specialize("cheap", glossy.options().cheap)
+        .read("blocks", chunk.blocks)
+        .read("transfer_direct", chunk.direct)
+        .read("transfer_indirect", chunk.indirect)
+        .read("lights", lights)
+        .write("fields", fields)
+        .push(chunk.block_count)
+        .dispatch(columns, rows);
+  }
+
+  const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                            .width = inputs.gbuffer.width,
+                            .height = inputs.gbuffer.height};
+  const auto direct = graph.create("prt.gloss_direct", desc);
+  const auto further = graph.create("prt.gloss_indirect", desc);
+  auto& pixels = graph.compute("prt.gloss_pixels", prt_gloss_pixels_spv)
+                     .specialize("field_order", glossy.fieldOrder())
+                     .specialize("has_indirect", glossy.hasIndirect())
+                     .read("frame_view", inputs.view)
+                     .read("ids", inputs.gbuffer.ids)
+                     .read("normals", inputs.gbuffer.normals)
+                     .read("diffuse", inputs.gbuffer.diffuse)
+                     .read("specular", inputs.gbuffer.specular)
+                     .sample("gloss", inputs.environment.gloss())
+                     .read("gloss_rows", graph.upload("prt.gloss_rows", glossy.instanceRows(inputs.scene)))
+                     .read("fields", fields)
+                     .write("direct", direct)
+                     .write("indirect", further)
+                     .push(greatest);
+  inputs.scene.bindTriangles(pixels).dispatchOver(direct);
+  std::vector<frame::Gloss> terms = {{direct, frame::Path::kDirect}};
+  if (glossy.hasIndirect() && indirect) terms.push_back({further, frame::Path::kIndirect});
+  return terms;
+}
+
+}  // namespace gloam::prt

@@ -1,0 +1,16 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Run time of glossy transfer (PRT-2, PRT-8): the gloss of the environment, self-shadowed and self-reflected.
+#pragma once
+
+#include "techniques/prt/prt_glossy_transfer.h"
+
+namespace gloam::prt {
+
+/// Adds "prt.gloss_vertices", once a chunk, and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be
+/// used. The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
+std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool indirect);
+
+}  // namespace gloam::prt
