@@ -1,0 +1,82 @@
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""Holds every technique to its error budget: tests/budgets.json says, for each technique and small scene, how far its
+picture may be from the path-traced reference of the same light and bounces.
+
+Usage: budgets_test.py GLOAM BUDGETS.json. Pictures and results stay in the folder of the first failure, for eyes.
+"""
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+STAGE = ("scene", "environment", "bounces", "sh_order", "size", "spp")
+MEASURES = ("rmse", "relative_squared_error", "flip", "mean_signed_error")
+FIELDS = {*STAGE, "technique", "settings", "most", "date", "reason"}
+
+
+def read_budgets(path):
+    budgets = json.loads(path.read_text(encoding="utf-8"))["budgets"]
+    for budget in budgets:
+        missing, unknown = FIELDS - set(budget), set(budget) - FIELDS
+        if missing or unknown or not budget["most"] or set(budget["most"]) - set(MEASURES):
+            raise SystemExit(f"{path}: {budget.get('technique')} on {budget.get('scene')}: missing {sorted(missing)}, "
+                             f"unknown {sorted(unknown)}, or 'most' holds other measures than {', '.join(MEASURES)}")
+    return budgets
+
+
+def contender(budget):
+    return ":".join([budget["technique"], *(f"{name}={value}" for name, value in budget["settings"].items())])
+
+
+def stages(budgets):
+    """Budgets that share a reference are compared in one run."""
+    groups = {}
+    for budget in budgets:
+        groups.setdefault(tuple(budget[name] for name in STAGE), []).append(budget)
+    return groups.items()
+
+
+def compare(gloam, stage, budgets, folder):
+    choice = dict(zip(STAGE, stage))
+    command = [gloam, "compare", choice["scene"], "--env", choice["environment"], "--size", choice["size"],
+               "--bounces", str(choice["bounces"]), "--spp", str(choice["spp"]), "--sh-order", str(choice["sh_order"]),
+               "--techniques", ",".join(dict.fromkeys(map(contender, budgets))), "--frames", "1", "--quiet", "--json",
+               "-o", str(folder)]
+    print("$", " ".join(command), flush=True)
+    process = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False,
+                             env=dict(os.environ, XDG_CACHE_HOME=str(folder.parent / "cache")))
+    if process.returncode != 0:
+        raise SystemExit(f"exit {process.returncode}\n{process.stderr}")
+    return json.loads(process.stdout)["techniques"]
+
+
+def violations(budget, result):
+    for measure, most in budget["most"].items():
+        value = result[measure]
+        kept = value is not None and math.isfinite(value) and abs(value) <= most
+        print(f"  {contender(budget):<28} {measure:<24} {value:>10.5f}  at most {most:<8g} {'' if kept else 'EXCEEDED'}")
+        if not kept:
+            yield f"{contender(budget)} on {budget['scene']}: {measure} {value} is above {most} ({budget['date']}: {budget['reason']})"
+
+
+def main():
+    gloam, path = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="gloam-budgets-"))
+    exceeded = []
+    for number, (stage, budgets) in enumerate(stages(read_budgets(path))):
+        results = compare(gloam, stage, budgets, folder / str(number))
+        order = list(dict.fromkeys(map(contender, budgets)))
+        for budget in budgets:
+            exceeded += violations(budget, results[order.index(contender(budget))])
+    if exceeded:
+        print(*exceeded, f"pictures: {folder}", sep="\n")
+        sys.exit(1)
+    shutil.rmtree(folder)
+
+
+main()
