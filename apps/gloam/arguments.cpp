@@ -100,12 +100,17 @@ CLI::Option* addText(CLI::App& app, const std::string& name, std::string& value,
   return app.add_option(name, value, help)->type_name(kind);
 }
 
-CLI::Option* addOutput(CLI::App& app, std::string& value, const std::string& kind, const std::string& help) {
-  const auto set = [&value](const std::string& text) {
-    if (text.empty()) throw Error("--output", "the name is empty");
+CLI::Option* addName(CLI::App& app, const std::string& name, std::string& value, const std::string& kind,
+                     const std::string& help) {
+  const auto set = [&value, place = name.substr(name.rfind(',') + 1)](const std::string& text) {
+    if (text.empty()) throw Error(place, "the name is empty");
     value = text;
   };
-  return app.add_option_function<std::string>("-o,--output", set, help)->type_name(kind)->group("Output");
+  return app.add_option_function<std::string>(name, set, help)->type_name(kind);
+}
+
+CLI::Option* addOutput(CLI::App& app, std::string& value, const std::string& kind, const std::string& help) {
+  return addName(app, "-o,--output", value, kind, help)->group("Output");
 }
 
 CLI::Option* addNumber(CLI::App& app, const std::string& name, float& value, Range range,

@@ -33,6 +33,9 @@ glm::ivec2 parseSize(const std::string& place, const std::string& text, int maxi
 // LIGHT and TECHNIQUE complete as files and names of that kind (completion.cpp).
 CLI::Option* addText(CLI::App& app, const std::string& name, std::string& value, const std::string& kind,
                      const std::string& help);
+/// The name of a file or the like; throws where it is empty.
+CLI::Option* addName(CLI::App& app, const std::string& name, std::string& value, const std::string& kind,
+                     const std::string& help);
 /// -o, --output; throws where the name is empty.
 CLI::Option* addOutput(CLI::App& app, std::string& value, const std::string& kind, const std::string& help);
 CLI::Option* addNumber(CLI::App& app, const std::string& name, float& value, Range range,

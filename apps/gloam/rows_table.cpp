@@ -49,7 +49,9 @@ constexpr Row kPrecomputedTransfer[] = {
      kYes, "", "gloam bake builtin:cornell -o cornell.glb", "prt_bake: PrtBake; prt: Prt"},
     {"PRT-2",
      "Glossy transfer matrices, square or 9 to 25, with a Phong-like kernel whose exponent is chosen at run "
-     "time"},
+     "time",
+     kYes, "", "gloam bake builtin:spheres --glossy on -o spheres.glb",
+     "math: ShHighOrder; prt_bake: PrtGlossyBake; prt: PrtGlossy"},
     {"PRT-3",
      "The simulator: quasi-random directions, culling below the horizon, later passes only along blocked "
      "directions, all cores, same bits for any number of threads, progress, resume",
@@ -66,7 +68,8 @@ constexpr Row kPrecomputedTransfer[] = {
      "Neighbourhood transfer: a grid of matrices round an object casts its soft shadow on whatever passes "
      "through"},
     {"PRT-7", "Volumes: transfer in a density grid, single and multiple scattering"},
-    {"PRT-8", "Materials may vary a point, and change at run time where nothing is interreflected"},
+    {"PRT-8", "Materials may vary a point, and change at run time where nothing is interreflected", kYes, "",
+     "gloam bake builtin:textured --kind ds --glossy on -o textured.glb", "prt: Prt, PrtGlossy"},
     {"PRT-9",
      "The baked file is a valid .glb; transfer rides in an extension whose data are ordinary accessors, as "
      "floats or halfs",
@@ -157,7 +160,10 @@ constexpr Row kReference[] = {
     {"REF-1",
      "A path tracer for the same scene, lights and materials: any number of bounces, direct and indirect "
      "apart, unbiased"},
-    {"REF-2", "Measures of error: RMSE, relative squared error, PSNR, SSIM, FLIP; difference pictures"},
+    {"REF-2", "Measures of error: RMSE, relative squared error, PSNR, SSIM, FLIP; difference pictures", kYes,
+     "", "gloam diff frame.exr reference.exr -o where",
+     "image: Metrics, Measure, Ssim, Flip, DifferencePicture, FalseColor; cli_diff: Measures, Bounds, "
+     "Pictures"},
     {"REF-3", "A comparison of techniques against the reference, as a table and one page"},
 };
 

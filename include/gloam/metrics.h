@@ -51,9 +51,12 @@ double meanSignedError(const Image& a, const Image& reference);
 
 // ---- Difference pictures ----------------------------------------------------------------------------------------------
 
-/// 1/2 + factor (a - b) / 2 of the two pictures as a display shows them (linear 0 to 1 after `display`, encoded as sRGB),
-/// as the papers print differences with factor 2: grey where equal. R, G, B linear as writePng takes it. Automatic
-/// exposure is found for the reference and holds for both.
+// Of the two pictures as a display shows them: linear 0 to 1 after `display`, encoded as sRGB. Automatic exposure is found
+// for the reference and holds for both. The result is R, G, B linear as writePng takes it.
+/// factor |a - b|, as papers print differences, with factor 2: black where equal.
+Image absoluteDifferencePicture(const Image& a, const Image& reference, double factor,
+                                const DisplayOptions& display);
+/// 1/2 + factor (a - b) / 2: grey where equal, lighter where a is too bright.
 Image differencePicture(const Image& a, const Image& reference, double factor, const DisplayOptions& display);
 /// |a - b| summed over channels relative to the reference's mean (summed alike; 1 where that is not above 0), by a
 /// perceptually even colour map (black 0, light at `top`): R, G, B linear as writePng takes it.

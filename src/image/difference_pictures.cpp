@@ -24,10 +24,9 @@ std::size_t place(const Image& image, std::size_t pixel, int color) {
   return pixel * std::size_t(image.channels) + std::size_t(image.channels >= 3 ? color : 0);
 }
 
-}  // namespace
-
-Image differencePicture(const Image& a, const Image& reference, double factor,
-                        const DisplayOptions& display) {
+/// What `encode` makes of the difference of the two signals, in each channel.
+template <class Encode>
+Image ofSignals(const Image& a, const Image& reference, const DisplayOptions& display, const Encode& encode) {
   requireComparable(a, reference);
   const DisplayOptions held = displayFor(reference, display);
   const Image shown_a = toneMapped(a, held), shown_b = toneMapped(reference, held);
@@ -37,11 +36,23 @@ Image differencePicture(const Image& a, const Image& reference, double factor,
     for (int c = 0; c < 3; ++c) {
       const std::size_t i = place(a, pixel, c);
       const float difference = srgbEncode(shown_a.pixels[i]) - srgbEncode(shown_b.pixels[i]);
-      color[c] = srgbDecode(std::clamp(0.5f + 0.5f * float(factor) * difference, 0.0f, 1.0f));
+      color[c] = srgbDecode(std::clamp(encode(difference), 0.0f, 1.0f));
     }
     put(picture, pixel, color);
   }
   return picture;
+}
+
+}  // namespace
+
+Image absoluteDifferencePicture(const Image& a, const Image& reference, double factor,
+                                const DisplayOptions& display) {
+  return ofSignals(a, reference, display, [=](float d) { return float(factor) * std::abs(d); });
+}
+
+Image differencePicture(const Image& a, const Image& reference, double factor,
+                        const DisplayOptions& display) {
+  return ofSignals(a, reference, display, [=](float d) { return 0.5f + 0.5f * float(factor) * d; });
 }
 
 Image falseColor(const Image& a, const Image& reference, double top) {

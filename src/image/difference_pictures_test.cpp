@@ -31,6 +31,17 @@ TEST(DifferencePicture, IsGreyWhereEqualAndTwiceTheDifferenceElsewhere) {
   EXPECT_NEAR(srgbEncode(four.at(1, 0)[0]) - 0.5f, 2.0f * (srgbEncode(picture.at(1, 0)[0]) - 0.5f), 1e-5f);
 }
 
+TEST(DifferencePicture, AbsoluteIsTwiceTheSizeOnBlack) {
+  Image a(2, 1, 1), b(2, 1, 1);
+  a.pixels = {0.5f, 0.2f}, b.pixels = {0.5f, 0.25f};
+  const Image more = absoluteDifferencePicture(a, b, 2.0, kPlain),
+              less = absoluteDifferencePicture(b, a, 2.0, kPlain);
+  EXPECT_EQ(more.at(0, 0)[1], 0.0f);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(srgbEncode(more.at(1, 0)[c]), 2.0f * (srgbEncode(0.25f) - srgbEncode(0.2f)), 1e-5f);
+  EXPECT_EQ(more.pixels, less.pixels);
+}
+
 TEST(DifferencePicture, ExposesBothAsSuitsTheReference) {
   const Image reference = test::radiancePicture(16, 16, 0);
   Image brighter = reference;
