@@ -1,0 +1,117 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sphere sets of a scene, object by object (Wang et al. 2006, "Variational Sphere Set Approximation for Solid Objects": spheres
+// that bound O with the least sum of V(S_i \ O)).
+#include <fmt/core.h>
+#include <gloam/spheres.h>
+
+#include "scene/threads.h"
+#include "spheres/objects.h"
+#include "spheres/search.h"
+
+namespace gloam {
+namespace {
+
+using spheres::Object;
+
+constexpr double kTooLoose =
+    12.0;  // times its own volume outside: what one sphere among many objects may not do
+
+void checkOptions(const SphereOptions& options) {
+  const auto check = [](const char* name, double value, double least, double most) {
+    if (!(value >= least && value <= most)) {
+      throw Error(std::string("spheres: ") + name, fmt::format("{}: expected {} to {}", value, least, most));
+    }
+  };
+  check("count", options.count, 1, 4096);
+  check("samples", options.samples, 500, 50000);
+  check("effort", double(options.effort), 0.01, 100);
+  check("threads", options.threads, 0, 1024);
+}
+
+Progress part(const Progress& whole, double from, double to, const std::string& what) {
+  Progress inner;
+  inner.should_stop = whole.should_stop;
+  if (whole.update) {
+    inner.update = [&whole, from, to, what](double fraction, const std::string&) {
+      whole.update(from + (to - from) * fraction, what);
+    };
+  }
+  return inner;
+}
+
+void fit(Object& object, const SphereOptions& options, const Scene& scene, const Progress& progress) {
+  const spheres::Solid& solid = object.solid;
+  const std::vector<spheres::Ball> balls =
+      findBalls(solid, {object.count, options.seed, options.samples, options.effort}, progress);
+  const spheres::Measured measured = measureBalls(solid, balls, options.seed);
+  SphereSet& set = object.set;
+  const double unit3 = double(solid.scale) * double(solid.scale) * double(solid.scale);
+  set.figures = {measured.volume * unit3, measured.outside_sum * unit3, measured.outside_union * unit3,
+                 measured.coverage};
+  for (const spheres::Ball& ball : balls) {
+    // Rounding on the way back must not uncover what sets the radius.
+    set.spheres.push_back(
+        {solid.origin + solid.scale * ball.center, solid.scale * ball.radius * (1.0f + 1e-6f)});
+  }
+  if (set.deforms) spheres::addAnchors(set, scene);
+}
+
+void remark(const Object& object, Warnings& warnings) {
+  const auto say = [&](const std::string& what) { warnings.push_back(object.set.name + ": " + what); };
+  if (!object.casts()) {
+    say(fmt::format("only receives ({})", object.set.receive_only));
+  } else if (object.solid.shell) {
+    say("encloses nothing: taken as a sheet of some thickness");
+  } else if (!object.solid.closed) {
+    say("is not closed: its inside follows from winding numbers");
+  } else if (object.solid.inverted) {
+    say("faces inward: turned");
+  }
+  const int got = int(object.set.spheres.size());
+  if (object.casts() && got < object.count)
+    say(fmt::format("{} spheres are enough, {} were asked for", got, object.count));
+}
+
+}  // namespace
+
+int SceneSpheres::count() const {
+  std::size_t sum = 0;
+  for (const SphereSet& set : sets) sum += set.spheres.size();
+  return int(sum);
+}
+
+SceneSpheres bakeSpheres(const Scene& scene, const SphereOptions& options, const Progress& progress) {
+  checkOptions(options);
+  SceneSpheres result;
+  withThreads(options.threads, [&] {
+    const PosedScene posed = pose(scene, 0.0f);
+    std::vector<Object> objects =
+        spheres::listObjects(scene, posed, part(progress, 0.0, 0.1, "spheres: shapes"));
+    if (objects.empty()) throw Error(scene.name, "holds no triangles: nothing to put spheres in");
+    markReceivers(objects, posed);
+    spreadCount(objects, options.count);
+    double work = 0.0, done = 0.0;
+    for (const Object& object : objects) work += double(object.count);
+    for (Object& object : objects) {
+      if (object.casts()) {
+        fit(object, options, scene,
+            part(progress, 0.1 + 0.9 * done / work, 0.1 + 0.9 * (done + double(object.count)) / work,
+                 "spheres: " + object.set.name));
+        done += double(object.count);
+        if (objects.size() > 1 && !object.solid.shell && object.set.figures.relativeSum() > kTooLoose) {
+          object.set.receive_only = fmt::format("thin: {} spheres would hold {:.0f} times its volume of air",
+                                                object.set.spheres.size(), object.set.figures.relativeSum());
+          object.set.spheres.clear(), object.set.anchors.clear(), object.set.first_anchor.clear();
+        }
+      }
+      remark(object, result.warnings);
+      result.sets.push_back(std::move(object.set));
+    }
+    progress.report(1.0, "spheres");
+  });
+  return result;
+}
+
+}  // namespace gloam

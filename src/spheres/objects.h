@@ -1,0 +1,39 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What of a scene gets a sphere set: objects, which of them only receive, how many spheres each gets.
+#pragma once
+
+#include <gloam/spheres.h>
+
+#include "spheres/solid.h"
+
+namespace gloam::spheres {
+
+struct Object {
+  SphereSet set;
+  Solid solid;
+  glm::mat4 world_from_unit{1.0f};  ///< of its first place, at the time of the bake
+  float world_scale3 = 1.0f;        ///< world volume a unit volume
+  std::size_t places = 1;
+  float bounding_outside = 0.0f;  ///< V_1: outside volume of its bounding sphere, in the world
+  int count = 0;                  ///< spheres it gets
+  bool casts() const { return set.receive_only.empty(); }
+};
+
+/// One for each different list of meshes and stretch, in the order of nodes; each with its solid.
+std::vector<Object> listObjects(const Scene& scene, const PosedScene& posed, const Progress& progress);
+
+/// Marks what only receives: without area, flat, a room round something else.
+void markReceivers(std::vector<Object>& objects, const PosedScene& posed);
+
+/// Gives out `count` spheres to those that cast, one at least; an object that stands in n places takes n at a time.
+void spreadCount(std::vector<Object>& objects, int count);
+
+/// Vertices, spread over the part of the surface that each sphere is nearest to by |p - c| / r.
+void addAnchors(SphereSet& set, const Scene& scene);
+
+/// 32 hexadecimal digits of the meshes' positions and triangles.
+std::string geometryOf(const Scene& scene, const std::vector<int>& meshes);
+
+}  // namespace gloam::spheres

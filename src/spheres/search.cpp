@@ -1,0 +1,149 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Several fits run side by side, each from its own clusters; now and then the worse half goes on from the better half. What
+// the leading points missed of the surface is then added, and the best fits go on with it (cutting planes).
+#include "spheres/search.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gloam::spheres {
+namespace {
+
+constexpr std::size_t kFits = 4;
+constexpr int kEpochs = 12, kMendRounds = 8;
+constexpr float kMovesPerBall = 40.0f, kMovesBase = 1000.0f;
+constexpr float kTolerance = 1.3f,
+                kMostTolerance = 0.08f;  // of the mean cost of a ball, of the sum; at first
+constexpr float kFinest = 1.0f / 400.0f;
+
+FitPoints leadingPoints(const Solid& solid, const Occupancy& occupancy, const SearchOptions& options) {
+  FitPoints points;
+  for (const glm::vec3& p : sampleSurface(solid.soup, options.samples, options.seed)) points.add(p);
+  // Inner points as well, a third as many: no hole is left within.
+  const std::vector<glm::vec3> inner = occupancy.fullCells();
+  const double step = std::max(1.0, double(inner.size()) / (double(options.samples) / 3.0));
+  for (double i = 0.5 * step; i < double(inner.size()); i += step) points.add(inner[std::size_t(i)]);
+  return points;
+}
+
+void stopIfAsked(const Progress& progress) {
+  if (progress.stopRequested()) throw Interrupted("interrupted: no sphere set");
+}
+
+using Fits = std::vector<std::vector<Ball>>;
+
+/// Epochs of moves; `fits` are balls to go on from, or empty.
+Fits runFits(const Occupancy& occupancy, const FitPoints& points, const SearchOptions& options, Fits fits,
+             int epochs, int moves, float tolerance, const std::function<void(double)>& report,
+             const Progress& progress) {
+  const bool fresh = fits.empty();
+  if (fresh) fits.resize(kFits);
+  const std::size_t count = fits.size();
+  std::vector<double> costs(count);
+  for (int epoch = 0; epoch < epochs; ++epoch) {
+    stopIfAsked(progress);
+    report(double(epoch) / double(epochs));
+    const float begin = tolerance * (1.0f - float(epoch) / float(epochs));
+    const float end = tolerance * (1.0f - float(epoch + 1) / float(epochs));
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t f) {
+      Fit fit(occupancy, points, options.seed,
+              std::uint32_t(f + kFits * std::size_t(epoch) + (fresh ? 0 : 1000)));
+      if (fresh && epoch == 0) {
+        fit.startFromClusters(options.count);
+      } else {
+        fit.startFrom(fits[f]);
+      }
+      fit.run(moves, begin, end);
+      fits[f] = fit.balls();
+      costs[f] = fit.cost();
+    });
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+    Fits sorted;
+    for (const std::size_t f : order) sorted.push_back(std::move(fits[f]));
+    if (epoch > 0 && (epoch == epochs / 2 || epoch == 3 * epochs / 4)) {
+      for (std::size_t f = count / 2; f < count; ++f) sorted[f] = sorted[f - count / 2];
+    }
+    fits = std::move(sorted);
+    std::sort(costs.begin(), costs.end());
+  }
+  return fits;
+}
+
+}  // namespace
+
+std::vector<Ball> findBalls(const Solid& solid, const SearchOptions& options, const Progress& progress) {
+  const auto grid = makeOccupancy(solid, options.count, progress.should_stop);
+  const Occupancy& occupancy = *grid;
+  FitPoints points = leadingPoints(solid, occupancy, options);
+  const int moves =
+      options.count < 2
+          ? 1
+          : std::max(1, int(options.effort * (kMovesBase + kMovesPerBall * float(options.count)) /
+                            float(kEpochs)));
+  const auto report = [&](double from, double to) {
+    return [&progress, from, to](double part) { progress.report(from + (to - from) * part, "spheres"); };
+  };
+  const int epochs = options.count < 2 ? 1 : kEpochs;
+  Fits fits =
+      runFits(occupancy, points, options, {}, epochs, moves,
+              std::min(kTolerance / float(options.count), kMostTolerance), report(0.0, 0.8), progress);
+  for (int round = 0; round < kMendRounds; ++round) {
+    std::vector<glm::vec3> missed;
+    for (const std::vector<Ball>& balls : fits) {
+      const std::vector<glm::vec3> more = uncoveredPoints(solid.soup, balls, kFinest);
+      missed.insert(missed.end(), more.begin(), more.end());
+    }
+    if (missed.empty()) break;
+    for (const glm::vec3& p : missed) points.add(p);
+    const double from = 0.8 + 0.2 * double(round) / kMendRounds;
+    fits.resize(kFits / 2);
+    fits = runFits(occupancy, points, options, std::move(fits), 1, std::max(1, moves / 4), 0.0f,
+                   report(from, from + 0.2 / kMendRounds), progress);
+  }
+  std::vector<Ball> balls = std::move(fits.front());
+  std::erase_if(balls, [](const Ball& ball) { return ball.radius <= 0.0f; });
+  for (int round = 0; round < kMendRounds; ++round) {
+    const std::vector<glm::vec3> missed = uncoveredPoints(solid.soup, balls, kFinest);
+    if (missed.empty()) break;
+    growOver(missed, balls);
+  }
+  return balls;
+}
+
+Measured measureBalls(const Solid& solid, const std::vector<Ball>& balls, std::uint32_t seed) {
+  constexpr int kPoints = 4096, kSurfacePoints = 200000;
+  Measured measured;
+  const bool exact = solid.closed && !solid.shell &&
+                     std::abs(std::abs(solid.signed_volume) - solid.volume) < 0.05f * solid.volume;
+  measured.volume = exact ? std::abs(double(solid.signed_volume)) : double(solid.volume);
+  measured.coverage = coveredShare(sampleSurface(solid.soup, kSurfacePoints, seed + 77), balls);
+  std::vector<glm::dvec2> parts(balls.size(), glm::dvec2(0.0));
+  tbb::parallel_for(std::size_t(0), balls.size(), [&](std::size_t b) {
+    const Ball& ball = balls[b];
+    double sum = 0.0, joined = 0.0;
+    for (int i = 0; i < kPoints; ++i) {
+      const auto u = sampling::r2(std::uint32_t(i));
+      const float depth = (float(i) + 0.5f) / float(kPoints);
+      const glm::vec3 p = ball.center + ball.radius * std::cbrt(depth) * sampling::uniformSphere(u);
+      const bool inside = solid.shell ? solid.coarse->outsideVolume(p, 0.25f * solid.coarse->cell()) <= 0.0f
+                                      : solid.winding->inside(p);
+      if (inside) continue;
+      const auto sharers = std::ranges::count_if(balls, [&](const Ball& other) { return holds(other, p); });
+      sum += 1.0;
+      joined += 1.0 / double(std::max<std::ptrdiff_t>(1, sharers));
+    }
+    parts[b] = glm::dvec2(sum, joined) / double(kPoints) * double(ballVolume(ball.radius));
+  });
+  for (const glm::dvec2& part : parts) measured.outside_sum += part.x, measured.outside_union += part.y;
+  return measured;
+}
+
+}  // namespace gloam::spheres

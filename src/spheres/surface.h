@@ -1,0 +1,28 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Points of a surface, and whether balls hold it.
+#pragma once
+
+#include "spheres/fit.h"
+
+namespace gloam::spheres {
+
+/// Points spread evenly over the area.
+std::vector<glm::vec3> sampleSurface(const Soup& soup, int count, std::uint32_t seed);
+
+inline bool holds(const Ball& ball, const glm::vec3& p) {
+  const glm::vec3 d = p - ball.center;
+  return glm::dot(d, d) <= ball.radius * ball.radius;
+}
+/// Share of these points that lie in at least one ball.
+double coveredShare(const std::vector<glm::vec3>& points, const std::vector<Ball>& balls);
+
+/// Points that no ball holds. Triangles whose corners lie in one ball are held; others are divided down to edges of
+/// `finest`, and corners are tested. Of each cube of that size ten times over the point that lies farthest out.
+std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>& balls, float finest);
+
+/// Makes the balls hold these points by growing, for each, the one that pays least for it.
+void growOver(const std::vector<glm::vec3>& points, std::vector<Ball>& balls);
+
+}  // namespace gloam::spheres
