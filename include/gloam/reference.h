@@ -48,12 +48,14 @@ class PathTracer {
   PathTracer(PathTracer&&) noexcept;
   PathTracer& operator=(PathTracer&&) noexcept;
 
-  /// Adds that many samples to every pixel. When asked to stop, finishes a whole number of samples a pixel (at most some
-  /// tenths of a second of work) and throws Interrupted: what is done counts.
+  /// Adds that many samples to every pixel. When asked to stop, finishes the tiles in hand (at most some tenths of a second
+  /// of work) and throws Interrupted. What is done counts, also where a tile is ahead of others by a few samples; the next
+  /// call brings the others up to it first.
   void refine(int samples, const Progress& progress = {});
-  int samples() const;  ///< a pixel, so far
+  int samples() const;  ///< a pixel, so far; the least where a stop has left some pixels behind
   /// Root mean square of the pixels' standard errors over the mean of the picture's light (R, G, B together): the relative
-  /// RMSE that is to be expected of noise alone. Infinite below two samples, 0 for a black picture.
+  /// RMSE that is to be expected of noise alone. Infinite below two samples of each position in a pixel, 0 for a black
+  /// picture.
   double noise() const;
   const ReferenceReport& report() const;
 

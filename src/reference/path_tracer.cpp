@@ -59,7 +59,7 @@ PathSums makePathSums(const ReferenceOptions& options, const Integrator& integra
       sums.paths.push_back(LightPath(p));
   }
   const std::size_t pixels = sums.pixelCount();
-  const std::size_t numbers = 3 * (sums.paths.size() + (sums.positions > 1 ? 2 : 1));
+  const std::size_t numbers = 3 * (sums.paths.size() + (sums.positions > 1 ? 3 : 2)) + 2;
   // Besides the sums: layers of geometry, and the picture when it is asked for.
   const double needed = double(pixels) * (8.0 * double(numbers) + 36.0 + 60.0);
   const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
@@ -72,21 +72,50 @@ PathSums makePathSums(const ReferenceOptions& options, const Integrator& integra
   sums.sums.resize(pixels * sums.paths.size() * 3);
   sums.squares.resize(pixels * 3);
   if (sums.positions > 1) sums.round.resize(pixels * 3);
+  sums.half.resize(pixels * 3);
+  sums.errors.resize(pixels * 2);
   return sums;
 }
 
-glm::dvec3 varianceOf(const PathSums& sums, std::size_t pixel, std::uint32_t samples) {
-  const double rounds = double(samples / std::uint32_t(sums.positions));
-  if (rounds < 2.0) return glm::dvec3(std::numeric_limits<double>::infinity());
+glm::dvec3 lightInRounds(const PathSums& sums, std::size_t pixel) {
   const std::size_t paths = sums.paths.size();
-  glm::dvec3 total(0.0), squares(0.0);
+  glm::dvec3 light(0.0);
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t p = 0; p < paths; ++p) total[int(c)] += sums.sums[(pixel * paths + p) * 3 + c];
-    if (!sums.round.empty()) total[int(c)] -= sums.round[3 * pixel + c];
-    squares[int(c)] = sums.squares[3 * pixel + c];
+    for (std::size_t p = 0; p < paths; ++p) light[int(c)] += sums.sums[(pixel * paths + p) * 3 + c];
+    if (!sums.round.empty()) light[int(c)] -= sums.round[3 * pixel + c];
   }
-  const glm::dvec3 of_a_round = glm::max(squares - total * total / rounds, glm::dvec3(0.0)) / (rounds - 1.0);
-  return of_a_round / (rounds * double(sums.positions) * double(sums.positions));
+  return light;
+}
+
+glm::dvec3 independentVariance(const PathSums& sums, std::size_t pixel, std::uint32_t samples) {
+  const double rounds = double(samples / std::uint32_t(sums.positions)), positions = double(sums.positions);
+  if (rounds < 2.0) return glm::dvec3(std::numeric_limits<double>::infinity());
+  const glm::dvec3 light = lightInRounds(sums, pixel);
+  const double* squares = &sums.squares[3 * pixel];
+  const glm::dvec3 spread = glm::dvec3(squares[0], squares[1], squares[2]) - light * light / rounds;
+  return glm::max(spread, glm::dvec3(0.0)) / ((rounds - 1.0) * rounds * positions * positions);
+}
+
+void measureError(PathSums& sums, std::size_t pixel, std::uint32_t samples) {
+  const glm::dvec3 light = lightInRounds(sums, pixel);
+  double* half = &sums.half[3 * pixel];
+  if (samples > std::uint32_t(sums.positions)) {
+    const glm::dvec3 first(half[0], half[1], half[2]);
+    const glm::dvec3 error = (2.0 * first - light) / double(samples);
+    const glm::dvec3 independent = independentVariance(sums, pixel, samples);
+    sums.errors[2 * pixel] = glm::dot(error, error);
+    sums.errors[2 * pixel + 1] = independent.x + independent.y + independent.z;
+  }
+  for (int c = 0; c < 3; ++c) half[c] = light[c];
+}
+
+double evenness(const PathSums& sums) {
+  double happened = 0.0, independent = 0.0;
+  for (std::size_t pixel = 0; pixel < sums.pixelCount(); ++pixel) {
+    happened += sums.errors[2 * pixel];
+    independent += sums.errors[2 * pixel + 1];
+  }
+  return independent > 0.0 ? happened / independent : 1.0;
 }
 
 double noiseOf(const PathSums& sums) {
@@ -95,7 +124,7 @@ double noiseOf(const PathSums& sums) {
   for (std::size_t pixel = 0; pixel < sums.pixelCount(); ++pixel) {
     const std::uint32_t samples =
         sums.samples[sums.tileOf(int(pixel % std::size_t(sums.width)), int(pixel / std::size_t(sums.width)))];
-    const glm::dvec3 of_pixel = varianceOf(sums, pixel, samples);
+    const glm::dvec3 of_pixel = independentVariance(sums, pixel, samples);
     variance += of_pixel.x + of_pixel.y + of_pixel.z;
     double sum = 0.0;
     for (std::size_t i = 0; i < 3 * paths; ++i) sum += sums.sums[pixel * paths * 3 + i];
@@ -103,7 +132,7 @@ double noiseOf(const PathSums& sums) {
   }
   if (std::isinf(variance)) return variance;
   const double values = 3.0 * double(sums.pixelCount());
-  return light > 0.0 ? std::sqrt(variance / values) / (light / values) : 0.0;
+  return light > 0.0 ? std::sqrt(evenness(sums) * variance / values) / (light / values) : 0.0;
 }
 
 Fingerprint fingerprintOf(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,

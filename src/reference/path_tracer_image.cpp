@@ -41,8 +41,9 @@ Image meanLight(const PathSums& sums, int channels, const Takes& takes) {
 
 Image varianceImage(const PathSums& sums) {
   Image image(sums.width, sums.height, 3);
+  const double even = evenness(sums);
   forPixels(sums, [&](std::size_t pixel, std::uint32_t samples) {
-    const glm::dvec3 variance = varianceOf(sums, pixel, samples);
+    const glm::dvec3 variance = even * independentVariance(sums, pixel, samples);
     for (int c = 0; c < 3; ++c) image.pixels[3 * pixel + std::size_t(c)] = float(variance[c]);
   });
   return image;

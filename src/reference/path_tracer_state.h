@@ -20,6 +20,12 @@ inline constexpr int kMaxSamples = 1 << 24;  ///< a pixel
 /// Sample k of a pixel starts at position k mod supersample^2, so a round of that many samples holds every position once
 /// and its mean is an estimate of the pixel: variance is that of rounds, in which the differences between positions of one
 /// pixel (edges, textures) are no noise.
+///
+/// Samples of a pixel are spread evenly, so their mean is steadier than that of independent ones. By how much is measured:
+/// whenever the number of rounds is a power of two, half the difference between the means of the first and the second half
+/// is an error of the mean as it happened (a little large: each half is less even than the whole). One such number says
+/// little of its pixel, but the ratio of all pixels' squares to what independent samples would have had (`evenness`)
+/// says how far to trust the spread of samples.
 struct PathSums {
   int width = 0, height = 0;
   int positions = 1;                   ///< supersample^2: samples a round
@@ -28,6 +34,9 @@ struct PathSums {
   std::vector<double> sums;            ///< [pixel][path][rgb]
   std::vector<double> squares;         ///< [pixel][rgb]: of each round's sum of all light
   std::vector<double> round;  ///< [pixel][rgb]: of the round under way; empty where that is one sample
+  std::vector<double> half;   ///< [pixel][rgb]: of all light, when rounds were last a power of two
+  /// [pixel]: then, the squared error as it happened, and the variance of independent samples; R, G, B together.
+  std::vector<double> errors;
 
   int tilesAcross() const { return (width + kTileSize - 1) / kTileSize; }
   std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
@@ -40,7 +49,7 @@ struct PathSums {
   template <class Visit>
   void forContents(const Visit& visit) {
     visit(samples.data(), samples.size() * sizeof(samples[0]));
-    for (auto* values : {&sums, &squares, &round}) {
+    for (auto* values : {&sums, &squares, &round, &half, &errors}) {
       if (!values->empty()) visit(values->data(), values->size() * sizeof(double));
     }
   }
@@ -49,8 +58,14 @@ struct PathSums {
 /// Zeros for a picture of that size. Throws Error where the machine has not so much memory.
 PathSums makePathSums(const ReferenceOptions& options, const Integrator& integrator);
 
-/// Variance of the mean that a pixel holds; infinite below two rounds.
-glm::dvec3 varianceOf(const PathSums& sums, std::size_t pixel, std::uint32_t samples);
+/// All light of a pixel, without a round that is not full.
+glm::dvec3 lightInRounds(const PathSums& sums, std::size_t pixel);
+/// Variance of the mean that a pixel would hold if its samples were independent; infinite below two rounds.
+glm::dvec3 independentVariance(const PathSums& sums, std::size_t pixel, std::uint32_t samples);
+/// What the true variance is of that, on average over the picture; 1 where that is not known yet.
+double evenness(const PathSums& sums);
+/// To be called for a pixel with a power of two of full rounds.
+void measureError(PathSums& sums, std::size_t pixel, std::uint32_t samples);
 
 /// PathTracer::noise().
 double noiseOf(const PathSums& sums);

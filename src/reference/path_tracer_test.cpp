@@ -238,7 +238,7 @@ TEST(PathTracer, DamagedCheckpointsAreRefusedAndChangeNothing) {
 
 // ---- Noise -------------------------------------------------------------------------------------------------------------
 
-// The spread of many pictures of other seeds is what the pictures say of themselves. 60 pictures of 16 samples: the
+// The spread of many pictures of other seeds is what the pictures say of themselves. 60 pictures of 32 samples: the
 // standard error of a variance from 60 values of a bell curve is 18 %; summed over hundreds of pixels that vary
 // independently it is far below, but some pixels' light is rare and bright, so a tenth is left.
 TEST(PathTracer, VarianceIsThatOfTheMean) {
@@ -251,7 +251,7 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
     for (int i = 0; i < kPictures; ++i) {
       stage.options.seed = std::uint64_t(i);
       PathTracer tracer = stage.tracer();
-      tracer.refine(16);
+      tracer.refine(32);
       const LayeredImage image = tracer.image();
       const Image light = image.image("", {"R", "G", "B"}, ""),
                   variance = image.image("variance", {"R", "G", "B"}, "");
@@ -270,9 +270,9 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
     ASSERT_GT(measured, 0.0);
     const double values = double(sum.size());
     EXPECT_NEAR(claimed_noise, std::sqrt(claimed / values) / (mean / values), 0.1 * claimed_noise);
-    // Samples of one pixel are spread evenly on purpose: their mean is steadier than independent ones' would be.
-    EXPECT_LT(measured, 1.1 * claimed) << supersample;
-    EXPECT_GT(measured, 0.2 * claimed) << supersample;
+    // Two halves are each less even than the whole: what they tell of its error is a little large.
+    EXPECT_LT(measured, 1.15 * claimed) << supersample;
+    EXPECT_GT(measured, 0.5 * claimed) << supersample;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <mutex>
 
@@ -156,6 +157,9 @@ void tracePixel(TracerState& state, int x, int y, std::uint32_t from, std::uint3
     if (k % positions + 1 < positions) continue;
     for (int c = 0; c < 3; ++c) squares[c] += round[c] * round[c];
     round = glm::dvec3(0.0);
+    if (!std::has_single_bit((k + 1) / positions)) continue;
+    for (std::size_t c = 0; positions > 1 && c < 3; ++c) sums.round[3 * pixel + c] = 0.0;
+    measureError(sums, pixel, k + 1);
   }
   for (std::size_t c = 0; positions > 1 && c < 3; ++c) sums.round[3 * pixel + c] = round[int(c)];
 }

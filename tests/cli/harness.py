@@ -15,7 +15,7 @@ import unittest
 
 GLOAM = os.environ["GLOAM"]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-VERBS = ["render", "bake", "diff", "info", "list", "scene", "bench", "completion"]
+VERBS = ["render", "bake", "reference", "diff", "info", "list", "scene", "bench", "completion"]
 SMALL = ["--size", "48x32"]
 BOX = "builtin:cornell?detail=0.25"
 

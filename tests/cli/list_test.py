@@ -45,7 +45,7 @@ class List(CliTest):
         self.refuse("list", "--markdown", says="--rows")
 
     def test_commands_of_rows_exist(self):
-        verbs_known = {"render", "bake", "bench", "diff", "info", "list", "scene"}
+        verbs_known = {"render", "bake", "reference", "bench", "diff", "info", "list", "scene"}
         for row in self.succeed_json("list", "--rows")["rows"]:
             words = row["command"].split()
             self.assertIn(words[1], verbs_known, row)
