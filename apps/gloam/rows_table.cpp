@@ -159,12 +159,18 @@ constexpr Row kSplatting[] = {
 constexpr Row kReference[] = {
     {"REF-1",
      "A path tracer for the same scene, lights and materials: any number of bounces, direct and indirect "
-     "apart, unbiased"},
+     "apart, unbiased",
+     kYes, "", "gloam reference builtin:cornell --bounces 4 --parts -o cornell.exr",
+     "reference: Furnace, Lights, Bounces, Lobes, Projection, PathTracer, ReferenceFile; cli_reference: "
+     "Light, "
+     "Interruptions"},
     {"REF-2", "Measures of error: RMSE, relative squared error, PSNR, SSIM, FLIP; difference pictures", kYes,
      "", "gloam diff frame.exr reference.exr -o where",
      "image: Metrics, Measure, Ssim, Flip, DifferencePicture, FalseColor; cli_diff: Measures, Bounds, "
      "Pictures"},
-    {"REF-3", "A comparison of techniques against the reference, as a table and one page"},
+    {"REF-3", "A comparison of techniques against the reference, as a table and one page", kYes, "",
+     "gloam compare builtin:columns --techniques irradiance,prt -o columns",
+     "cli_compare: Results, References; cli_compare_page: Page"},
 };
 
 constexpr Row kOneFrame[] = {
