@@ -14,31 +14,31 @@ namespace gloam::reference::angles {
 /// Angle of (x, y) in turns, -1/2 to 1/2: atan2(y, x) / 2 pi. 0 for (0, 0).
 inline float turns(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
-  const float high = std::max(ax, ay), t = high > 0.0f ? std::min(ax, ay) / high : 0.0f, s = t * t;
+  const float high = std::max(std::max(ax, ay), 1e-37f), t = std::min(ax, ay) / high, s = t * t;
   float angle =
       t * (0.15915492f +
            s * (-0.05304923f +
                 s * (0.03177841f +
                      s * (-0.02228693f +
                           s * (0.01570679f + s * (-0.00936305f + s * (0.00378479f + s * -0.00072571f)))))));
-  if (ay > ax) angle = 0.25f - angle;
-  if (x < 0.0f) angle = 0.5f - angle;
+  angle = ay > ax ? 0.25f - angle : angle;
+  angle = x < 0.0f ? 0.5f - angle : angle;
   return std::copysign(angle, y);
+}
+
+/// sin(2 pi t) for t between -1/4 and 1/4.
+inline float quarterSine(float t) {
+  const float s = t * t;
+  return t * (6.28318528f + s * (-41.3416806f + s * (81.6024764f + s * (-76.5811726f + s * 39.7598271f))));
 }
 
 struct Circle {
   float cosine, sine;
 };
-/// Of an angle in turns, of any sign, small enough for floats to tell its fraction.
+/// Of an angle between -1 and 1 turns.
 inline Circle circle(float turns) {
-  // Quarters are counted off; what remains is an eighth of a turn at most, to either side.
-  const float quarters = std::floor(4.0f * turns + 0.5f);
-  const float t = turns - 0.25f * quarters, s = t * t;
-  const float sine = t * (6.28318529f + s * (-41.3416626f + s * (81.5925429f + s * -75.4016127f)));
-  const float cosine = 0.99999997f + s * (-19.7391521f + s * (64.9212343f + s * -83.5918168f));
-  const int quadrant = int(quarters) & 3;
-  const float a = (quadrant & 1) != 0 ? sine : cosine, b = (quadrant & 1) != 0 ? cosine : sine;
-  return {quadrant == 1 || quadrant == 2 ? -a : a, quadrant >= 2 ? -b : b};
+  const float t = turns - (turns >= 0.5f ? 1.0f : 0.0f) + (turns < -0.5f ? 1.0f : 0.0f), size = std::abs(t);
+  return {quarterSine(0.25f - size), std::copysign(quarterSine(0.25f - std::abs(size - 0.25f)), t)};
 }
 
 /// sampling::frame(axis) * (direction about +Z).
@@ -47,6 +47,13 @@ inline glm::vec3 about(const glm::vec3& n, float x, float y, float z) {
   const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
   return {(1.0f + sign * n.x * n.x * a) * x + b * y + n.x * z,
           sign * b * x + (sign + n.y * n.y * a) * y + n.y * z, -sign * n.x * x - n.y * y + n.z * z};
+}
+
+/// About a unit axis, with density cosine / pi.
+inline glm::vec3 cosineAbout(const glm::vec3& axis, float u, float v) {
+  const float radius = std::sqrt(u);
+  const Circle azimuth = circle(v);
+  return about(axis, radius * azimuth.cosine, radius * azimuth.sine, std::sqrt(1.0f - u));
 }
 
 }  // namespace gloam::reference::angles

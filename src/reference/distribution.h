@@ -26,13 +26,13 @@ class Distribution {
   Choice choose(std::uint32_t number) const {
     std::uint32_t i = first_[number >> shift_];
     while (i < last_ && starts_[i + 1] <= number) ++i;
-    return {i, float(number - starts_[i]) / float(width(i))};
+    return {i, float(std::int64_t(number - starts_[i])) / float(width(i))};
   }
   float probability(std::uint32_t i) const { return i <= last_ ? float(width(i)) * 0x1p-32f : 0.0f; }
 
  private:
-  std::uint64_t width(std::uint32_t i) const {
-    return (i < last_ ? starts_[i + 1] : std::uint64_t(1) << 32) - starts_[i];
+  std::int64_t width(std::uint32_t i) const {  // signed: floats are made of those at once
+    return (i < last_ ? starts_[i + 1] : std::int64_t(1) << 32) - starts_[i];
   }
   std::vector<std::uint32_t> starts_;  // least number of each entry; those of width 0 start with the next
   std::vector<std::uint32_t> first_;   // entry that holds the first number of each equal part

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "math/sampling.h"
 #include "reference/angles.h"
@@ -27,11 +28,37 @@ constexpr double kPiDouble = 3.14159265358979323846;
 constexpr int kProjectionWidth = 128, kProjectionHeight = 64;
 constexpr float kEvenShare = 0.1f;
 
+// Four floats in one register.
+using Four = float __attribute__((vector_size(16)));
+Four four(const glm::vec4& v) {
+  Four result;
+  std::memcpy(&result, &v, sizeof result);
+  return result;
+}
+
 // Where between 0 and 1 a density that goes linearly from a to b has the share u below it.
 float sampleLinear(float a, float b, float u) {
   const float sum = a + b;
   if (!(sum > 0.0f)) return u;
   return std::min(u * sum / (a + std::sqrt(glm::mix(a * a, b * b, u))), 1.0f);
+}
+
+// Which of four parts holds what is left of their sum, and what is left in it, 0 to 1.
+struct Part {
+  int index;
+  float rest;
+};
+Part partOf(const float* parts, float rest) {
+  float before = 0.0f, sum = 0.0f;
+  int index = 0;
+  for (int i = 0; i < 3; ++i) {
+    sum += parts[i];
+    const bool beyond = rest >= sum && sum + parts[i + 1] > sum;
+    index = beyond ? i + 1 : index;
+    before = beyond ? sum : before;
+  }
+  const float size = parts[index];
+  return {index, size > 0.0f ? std::clamp((rest - before) / size, 0.0f, 1.0f) : 0.5f};
 }
 
 float importanceOf(const glm::vec3& radiance) {
@@ -63,6 +90,7 @@ void EnvironmentSampler::fillPixels(const Environment& environment) {
   height_ = environment.height;
   cos_rotation_ = std::cos(environment.rotation_rad);
   sin_rotation_ = std::sin(environment.rotation_rad);
+  turned_ = 0.5f + std::remainder(environment.rotation_rad / (2.0f * kPi), 1.0f);
   texels_.resize(std::size_t(width_ + 1) * std::size_t(height_ + 2));
   for (int row = 0; row < height_ + 2; ++row) {
     const int from_row = std::clamp(row - 1, 0, height_ - 1);
@@ -78,6 +106,7 @@ void EnvironmentSampler::fillPixels(const Environment& environment) {
 }
 
 void EnvironmentSampler::fillProjection(const Environment& environment, int order) {
+  turned_ = 0.5f;
   projection_ = sh::truncated(projectEnvironment(environment, sh::kMaxOrder), order);
   width_ = kProjectionWidth;
   height_ = kProjectionHeight;
@@ -152,25 +181,38 @@ void EnvironmentSampler::prefetch(int cell_x, int cell_y, int rows) const {
 
 EnvironmentSampler::Light EnvironmentSampler::at(const Place& place, const glm::vec3& direction) const {
   const glm::vec4 *upper = texel(place.cell_x, place.cell_y), *lower = upper + width_ + 1;
-  const glm::vec4 left = upper[0] + (lower[0] - upper[0]) * place.y;
-  const glm::vec4 right = upper[1] + (lower[1] - upper[1]) * place.y;
-  const glm::vec4 light = left + (right - left) * place.x;
-  float pdf = light.w * rows_[std::size_t(place.cell_y)].density;
+  const Four upper_left = four(upper[0]), upper_right = four(upper[1]);
+  const Four left = upper_left + (four(lower[0]) - upper_left) * place.y;
+  const Four right = upper_right + (four(lower[1]) - upper_right) * place.y;
+  const Four light = left + (right - left) * place.x;
+  float pdf = light[3] * rows_[std::size_t(place.cell_y)].density;
   if (place.cell_y > 0 && place.cell_y < height_) pdf /= std::max(place.cos_elevation, 1e-6f);
-  return {projection_.order > 0 ? sh::valueAt(projection_, direction) : glm::vec3(light), pdf};
+  return {
+      projection_.order > 0 ? sh::valueAt(projection_, direction) : glm::vec3(light[0], light[1], light[2]),
+      pdf};
 }
 
-EnvironmentSampler::Place EnvironmentSampler::place(const glm::vec3& d) const {
-  const float local_x = cos_rotation_ * d.x - sin_rotation_ * d.z;
-  const float local_z = sin_rotation_ * d.x + cos_rotation_ * d.z;
-  const float cos_elevation = std::sqrt(local_x * local_x + local_z * local_z);
-  float x = (angles::turns(local_z, local_x) + 0.5f) * float(width_) + 0.5f;
-  if (x >= float(width_)) x -= float(width_);
-  const float down = 0.5f - 2.0f * angles::turns(d.y, cos_elevation);
-  const float y = std::clamp(down * float(height_) + 0.5f, 0.5f, float(height_) + 0.5f);
+EnvironmentSampler::Place EnvironmentSampler::placeOf(float longitude, float elevation,
+                                                      float cos_elevation) const {
+  float turns = longitude + turned_;  // 0 to 1 is once round
+  turns += (turns < 0.0f ? 1.0f : 0.0f) - (turns >= 1.0f ? 1.0f : 0.0f);
+  float x = turns * float(width_) + 0.5f;
+  x -= x >= float(width_) ? float(width_) : 0.0f;
+  const float y = std::clamp((0.5f - 2.0f * elevation) * float(height_) + 0.5f, 0.5f, float(height_) + 0.5f);
   const int cell_x = std::clamp(int(x), 0, width_ - 1), cell_y = std::clamp(int(y), 0, height_);
   prefetch(cell_x, cell_y, 2);
   return {cell_x, cell_y, x - float(cell_x), y - float(cell_y), cos_elevation};
+}
+
+EnvironmentSampler::Place EnvironmentSampler::place(const glm::vec3& d) const {
+  const float cos_elevation = std::sqrt(d.x * d.x + d.z * d.z);
+  return placeOf(angles::turns(d.z, d.x), angles::turns(d.y, cos_elevation), cos_elevation);
+}
+
+void EnvironmentSampler::places(const LaneVectors& directions, int count, Place* places) const {
+  LaneFloats longitude, elevation, cos_elevation;
+  anglesOfLanes(directions, longitude, elevation, cos_elevation);
+  for (int i = 0; i < count; ++i) places[i] = placeOf(longitude.at[i], elevation.at[i], cos_elevation.at[i]);
 }
 
 EnvironmentSampler::Block EnvironmentSampler::choose(const glm::uvec2& numbers) const {
@@ -185,32 +227,26 @@ EnvironmentSampler::Block EnvironmentSampler::choose(const glm::uvec2& numbers) 
 EnvironmentSampler::Place EnvironmentSampler::placeIn(const Block& block) const {
   const int x0 = block.column * kBlock, y0 = block.row * kBlock;
   const int columns = std::min(kBlock, width_ - x0), rows = std::min(kBlock, height_ + 1 - y0);
-  float sums[kBlock + 1];  // of each row of texels, those inside counted twice: they belong to two cells
+  float pairs[kBlock + 1][kBlock] = {}, of_rows[kBlock] = {}, of_cells[kBlock] = {};
   for (int r = 0; r <= rows; ++r) {
     const glm::vec4* t = texel(x0, y0 + r);
-    sums[r] = t[0].w + t[columns].w;
-    for (int c = 1; c < columns; ++c) sums[r] += 2.0f * t[c].w;
+    for (int c = 0; c < columns; ++c) pairs[r][c] = t[c].w + t[c + 1].w;
   }
-  float of_rows[kBlock], total = 0.0f;
+  float total = 0.0f;
   for (int r = 0; r < rows; ++r) {
-    of_rows[r] = (sums[r] + sums[r + 1]) * rows_[std::size_t(y0 + r)].solid_angle;
+    float sum = 0.0f;
+    for (int c = 0; c < kBlock; ++c) sum += pairs[r][c] + pairs[r + 1][c];
+    of_rows[r] = sum * rows_[std::size_t(y0 + r)].solid_angle;
     total += of_rows[r];
   }
-  float rest = block.rest_y * total;
-  int row = 0;
-  while (row < rows - 1 && rest >= of_rows[row]) rest -= of_rows[row++];
-  const glm::vec4 *upper = texel(x0, y0 + row), *lower = upper + width_ + 1;
-  const float row_total = sums[row] + sums[row + 1];
-  float rest_x = block.rest_x * row_total, of_cell = 0.0f;
-  int column = 0;
-  for (;; ++column) {
-    of_cell = upper[column].w + upper[column + 1].w + lower[column].w + lower[column + 1].w;
-    if (column == columns - 1 || rest_x < of_cell) break;
-    rest_x -= of_cell;
+  const Part row = partOf(of_rows, block.rest_y * total);
+  float row_total = 0.0f;
+  for (int c = 0; c < kBlock; ++c) {
+    of_cells[c] = pairs[row.index][c] + pairs[row.index + 1][c];
+    row_total += of_cells[c];
   }
-  Place place{x0 + column, y0 + row, of_cell > 0.0f ? std::clamp(rest_x / of_cell, 0.0f, 1.0f) : 0.5f,
-              of_rows[row] > 0.0f ? std::clamp(rest / of_rows[row], 0.0f, 1.0f) : 0.5f, 0.0f};
-  return place;
+  const Part column = partOf(of_cells, block.rest_x * row_total);
+  return {x0 + column.index, y0 + row.index, column.rest, row.rest, 0.0f};
 }
 
 EnvironmentSampler::Sample EnvironmentSampler::sample(const Block& block) const {

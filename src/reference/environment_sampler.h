@@ -8,6 +8,7 @@
 #include <gloam/sh.h>
 
 #include "reference/distribution.h"
+#include "reference/lanes.h"
 
 namespace gloam::reference {
 
@@ -32,6 +33,8 @@ class EnvironmentSampler {
     float cos_elevation;
   };
   Place place(const glm::vec3& direction) const;
+  /// The same for lanes 0 to count - 1.
+  void places(const LaneVectors& directions, int count, Place* places) const;
   /// Surely no light around there.
   bool isDark(const Place& place) const {
     return lit_[std::size_t(place.cell_y / kBlock) * std::size_t(block_columns_) +
@@ -63,11 +66,12 @@ class EnvironmentSampler {
     return &texels_[std::size_t(cell_y) * std::size_t(width_ + 1) + std::size_t(cell_x)];
   }
   void prefetch(int cell_x, int cell_y, int rows) const;
+  Place placeOf(float longitude, float elevation, float cos_elevation) const;
   Place placeIn(const Block& block) const;
 
   int width_ = 0, height_ = 0;     // texels
   std::vector<glm::vec4> texels_;  // (width + 1) x (height + 2), a border around; w: importance
-  float cos_rotation_ = 1.0f, sin_rotation_ = 0.0f;
+  float cos_rotation_ = 1.0f, sin_rotation_ = 0.0f, turned_ = 0.0f;
   sh::ShRgb projection_;  // order 0: pixels are the light
   int block_columns_ = 0;
   Distribution block_rows_;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "reference/paths.h"
+#include "scene/camera_rays.h"
 
 namespace gloam::reference {
 namespace {
@@ -126,14 +127,23 @@ CameraPoint Integrator::look(int x, int y) const {
   return point;
 }
 
+void Integrator::trace(const CameraPoint& point, int x, int y, std::uint32_t pixel, std::uint32_t first,
+                       std::span<PathLight> light, std::size_t& rays,
+                       std::vector<trace::LoggedRay>* log) const {
+  if (point.instance != kNone) return impl_->paths.trace(point, pixel, first, light, rays, log);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] = {};
+    if (!impl_->background) continue;
+    const glm::vec2 place = Sampler(impl_->seed, pixel, first + std::uint32_t(i)).pair(0);
+    light[i][kSeen] =
+        impl_->pixels->from(impl_->unitDirection(float(x) + place.x, float(y) + place.y)).radiance;
+  }
+}
+
 PathLight Integrator::trace(const CameraPoint& point, int x, int y, std::uint32_t pixel, std::uint32_t sample,
                             std::size_t& rays, std::vector<trace::LoggedRay>* log) const {
-  const Sampler sampler(impl_->seed, pixel, sample);
-  if (point.instance != kNone) return impl_->paths.trace(point, sampler, rays, log);
-  PathLight light{};
-  if (!impl_->background) return light;
-  const glm::vec2 place = sampler.pair(0);
-  light[kSeen] = impl_->pixels->from(impl_->unitDirection(float(x) + place.x, float(y) + place.y)).radiance;
+  PathLight light;
+  trace(point, x, y, pixel, sample, {&light, 1}, rays, log);
   return light;
 }
 

@@ -289,5 +289,32 @@ TEST(Integrator, SameBitsOnAnyThread) {
   EXPECT_EQ(in_turn, at_once);
 }
 
+// However samples are bundled: alone, by sixteen, by seven, more at once than walk side by side.
+TEST(Integrator, SameBitsInAnyCompany) {
+  const Scene scene = loadScene("builtin:textured?detail=0.25");
+  const PosedScene posed = pose(scene, 0.0f);
+  ReferenceOptions options;
+  options.width = options.height = 24;
+  options.bounces = 6;
+  const Integrator integrator(scene, posed, posed.cameras[0], scene.environment, options, {});
+  for (int i = 0; i < 24 * 24; i += 7) {
+    const int x = i % 24, y = i / 24;
+    const CameraPoint point = integrator.look(x, y);
+    std::vector<PathLight> alone(40), by_seven(40), at_once(40);
+    std::size_t rays_alone = 0, rays_at_once = 0;
+    for (std::uint32_t s = 0; s < 40; ++s)
+      alone[s] = integrator.trace(point, x, y, std::uint32_t(i), s, rays_alone);
+    for (std::uint32_t s = 0; s < 40; s += 7) {
+      std::size_t rays = 0;
+      integrator.trace(point, x, y, std::uint32_t(i), s,
+                       std::span(by_seven).subspan(s, std::min<std::size_t>(7, 40 - s)), rays);
+    }
+    integrator.trace(point, x, y, std::uint32_t(i), 0, at_once, rays_at_once);
+    EXPECT_EQ(alone, at_once);
+    EXPECT_EQ(alone, by_seven);
+    EXPECT_EQ(rays_alone, rays_at_once);
+  }
+}
+
 }  // namespace
 }  // namespace gloam::reference

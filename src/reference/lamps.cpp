@@ -3,9 +3,6 @@
 #include "reference/lamps.h"
 
 #include <cmath>
-#include <limits>
-
-#include "math/punctual.h"
 
 namespace gloam::reference {
 namespace {
@@ -15,19 +12,6 @@ bool isFinite(const glm::vec3& v) {
 }
 
 }  // namespace
-
-Lamp::Arriving Lamp::at(const glm::vec3& place) const {
-  if (type == Light::Type::kDirectional)
-    return {intensity, -direction, std::numeric_limits<float>::infinity()};
-  const glm::vec3 between = position - place;
-  const float squared = std::max(glm::dot(between, between), punctual::kLeastSquaredDistance);
-  const float distance = std::sqrt(squared);
-  const glm::vec3 to_lamp = between / distance;
-  float factor = punctual::rangeFactor(distance, range) / squared;
-  if (type == Light::Type::kSpot)
-    factor *= punctual::coneFactor(-glm::dot(to_lamp, direction), cos_inner, cos_outer);
-  return {intensity * factor, to_lamp, distance};
-}
 
 std::vector<Lamp> makeLamps(const PosedScene& posed) {
   std::vector<Lamp> lamps;

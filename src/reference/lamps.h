@@ -6,7 +6,11 @@
 
 #include <gloam/scene.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
+
+#include "math/punctual.h"
 
 namespace gloam::reference {
 
@@ -23,6 +27,19 @@ struct Lamp {
   };
   Arriving at(const glm::vec3& position) const;
 };
+
+inline Lamp::Arriving Lamp::at(const glm::vec3& place) const {
+  if (type == Light::Type::kDirectional)
+    return {intensity, -direction, std::numeric_limits<float>::infinity()};
+  const glm::vec3 between = position - place;
+  const float squared = std::max(glm::dot(between, between), punctual::kLeastSquaredDistance);
+  const float distance = std::sqrt(squared);
+  const glm::vec3 to_lamp = between * (1.0f / distance);
+  float factor = punctual::rangeFactor(distance, range) / squared;
+  if (type == Light::Type::kSpot)
+    factor *= punctual::coneFactor(-glm::dot(to_lamp, direction), cos_inner, cos_outer);
+  return {intensity * factor, to_lamp, distance};
+}
 
 /// Those that shine. Throws Error for numbers that are not finite.
 std::vector<Lamp> makeLamps(const PosedScene& posed);

@@ -17,8 +17,9 @@ namespace gloam::reference {
 /// Lobes of one kind of surface.
 struct LobesReady {
   brdf::Lobes lobes;
-  float specular_share = 0.0f;  ///< brdf::specularProbability
-  float phong_scale = 0.0f;     ///< (n + 1) / 2 pi
+  float specular_share = 0.0f;   ///< brdf::specularProbability
+  float phong_scale = 0.0f;      ///< (n + 1) / 2 pi
+  float lambert_stretch = 1.0f;  ///< 1 / (1 - specular_share)
   bool black = true;
 
   LobesReady() = default;
@@ -26,6 +27,7 @@ struct LobesReady {
       : lobes(given),
         specular_share(brdf::specularProbability(given)),
         phong_scale((given.exponent + 1.0f) / (2.0f * sampling::kPi)),
+        lambert_stretch(specular_share < 1.0f ? 1.0f / (1.0f - specular_share) : 0.0f),
         black(given.diffuse == glm::vec3(0.0f) && given.specular == glm::vec3(0.0f)) {}
 };
 
@@ -49,16 +51,20 @@ class PointLobes {
             (1.0f - ready_->specular_share) * lambert + ready_->specular_share * phong};
   }
 
-  /// brdf::sampleLobes with the choice of the lobe taken out of u.x. Not for black lobes.
+  /// brdf::sampleLobes with the choice of the lobe taken out of u.x, which is stretched for what comes next. Not for black
+  /// lobes.
   glm::vec3 sample(glm::vec2 u) const {
-    const float share = ready_->specular_share;
-    if (u.x < share)
-      return sampling::frame(mirror_) * sampling::phongLobe({u.x / share, u.y}, ready_->lobes.exponent);
-    if (share > 0.0f) u.x = std::min((u.x - share) / (1.0f - share), 0x1.fffffep-1f);
-    const float radius = std::sqrt(u.x);
-    const angles::Circle azimuth = angles::circle(u.y);
-    return angles::about(normal_, radius * azimuth.cosine, radius * azimuth.sine, std::sqrt(1.0f - u.x));
+    return choosesPhong(u.x) ? samplePhong(u) : angles::cosineAbout(normal_, stretched(u.x), u.y);
   }
+  bool choosesPhong(float u) const { return u < ready_->specular_share; }
+  glm::vec3 samplePhong(const glm::vec2& u) const {
+    return sampling::frame(mirror_) *
+           sampling::phongLobe({u.x / ready_->specular_share, u.y}, ready_->lobes.exponent);
+  }
+  float stretched(float u) const {
+    return std::clamp((u - ready_->specular_share) * ready_->lambert_stretch, 0.0f, 0x1.fffffep-1f);
+  }
+  const glm::vec3& normal() const { return normal_; }
 
  private:
   float phongAt(float cosine) const {
@@ -68,7 +74,7 @@ class PointLobes {
   }
 
   const LobesReady* ready_ = nullptr;
-  glm::vec3 normal_{0.0f}, mirror_{0.0f};
+  glm::vec3 normal_, mirror_;
 };
 
 }  // namespace gloam::reference

@@ -7,6 +7,7 @@
 #include <gloam/reference.h>
 
 #include <memory>
+#include <span>
 
 #include "reference/emitters.h"
 #include "reference/environment_sampler.h"
@@ -14,7 +15,6 @@
 #include "reference/lamps.h"
 #include "reference/sampler.h"
 #include "reference/surfaces.h"
-#include "scene/camera_rays.h"
 
 namespace gloam::reference {
 
@@ -31,8 +31,9 @@ class Paths {
         const ReferenceOptions& options, Sampling sampling, const Progress& progress);
   Paths(const Paths&) = delete;
 
-  PathLight trace(const CameraPoint& point, const Sampler& sampler, std::size_t& rays,
-                  std::vector<trace::LoggedRay>* log) const;
+  /// Samples first, first + 1 … of a point that is no background. `light` is overwritten.
+  void trace(const CameraPoint& point, std::uint32_t pixel, std::uint32_t first, std::span<PathLight> light,
+             std::size_t& rays, std::vector<trace::LoggedRay>* log) const;
 
   const trace::Tracer& tracer() const { return tracer_; }
   const Surfaces& surfaces() const { return surfaces_; }
@@ -40,22 +41,27 @@ class Paths {
   Sources indirect() const { return indirect_; }
 
  private:
-  struct Walk;
-  struct Step;
-  void begin(Walk& walk, const CameraPoint& point) const;
-  void fromEnvironment(Walk& walk, const EnvironmentSampler::Block& block) const;
-  void fromEmitters(Walk& walk) const;
-  void fromLamps(Walk& walk) const;
-  void fromLamp(Walk& walk, const Lamp::Arriving& from, const glm::vec3& radiance) const;
-  bool chooseStep(Walk& walk, Step& step) const;
-  void finish(Walk& walk, const Step& step) const;
-  bool advance(Walk& walk, const Step& step, bool go_on) const;
-  void addEnvironment(Walk& walk, const Step& step) const;
+  struct Lane;
+  struct Batch;
+  void begin(Batch& batch, Lane* lanes, const CameraPoint& point, std::uint32_t first,
+             std::span<PathLight> light) const;
+  void walk(Batch& batch) const;
+  void chooseSteps(Batch& batch) const;
+  void fromEnvironment(Batch& batch) const;
+  void fromEmitters(Batch& batch) const;
+  void fromAllLamps(Batch& batch) const;
+  void fromOneLamp(Batch& batch) const;
+  static glm::vec3 lampLight(const Lane& lane, const Lamp::Arriving& from);
+  static void pushLamp(Batch& batch, Lane& lane, const Lamp::Arriving& from, const glm::vec3& light);
+  void castShadows(Batch& batch, LightPath direct) const;
+  void finish(Batch& batch) const;
+  void advance(Batch& batch, bool go_on) const;
+  bool arrive(Batch& batch, Lane& lane, const trace::Hit& hit) const;
+  void addEnvironment(Batch& batch, int lane) const;
   float weight(float pdf, float other_pdf) const {
     const float ratio = other_pdf / pdf;
     return both_ ? 1.0f / (1.0f + ratio * ratio) : 1.0f;
   }
-  bool visible(Walk& walk, const trace::Ray& ray) const;
 
   trace::Tracer tracer_;
   Surfaces surfaces_;
@@ -64,6 +70,7 @@ class Paths {
   std::vector<Lamp> lamps_;
   Sources direct_, indirect_;
   int last_depth_ = 0;
+  std::uint64_t seed_ = 0;
   bool sample_lights_ = true, sample_lobes_ = true, both_ = true;
 };
 

@@ -57,13 +57,11 @@ class Measurement {
   void trace(Tile& tile, std::vector<trace::LoggedRay>* log) const {
     std::size_t rays = 0;
     float sum = 0.0f;
+    std::vector<PathLight> lights(static_cast<std::size_t>(samples_));
     for (const Tile::Place& place : tile.places) {
-      for (int s = 0; s < samples_; ++s) {
-        const auto pixel = std::uint32_t(place.y * width_ + place.x);
-        const PathLight light =
-            integrator_.trace(place.point, place.x, place.y, pixel, std::uint32_t(s), rays, log);
-        for (const glm::vec3& part : light) sum += part.g;
-      }
+      const auto pixel = std::uint32_t(place.y * width_ + place.x);
+      integrator_.trace(place.point, place.x, place.y, pixel, 0, lights, rays, log);
+      sum += lights[0][kSeen].g;
     }
     keep(sum);
   }

@@ -23,6 +23,6 @@ struct ReferenceBench {
 /// (options.threads), in `rounds` pairs, so that a machine that changes its speed changes both. Throws as PathTracer does.
 ReferenceBench benchReference(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
                               const Environment& environment, const ReferenceOptions& options,
-                              int samples = 8, int rounds = 9);
+                              int samples = 16, int rounds = 9);
 
 }  // namespace gloam

@@ -22,7 +22,8 @@ inline std::uint32_t reversedBits(std::uint32_t v) {
   v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
   v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);
   v = ((v >> 4) & 0x0f0f0f0fu) | ((v & 0x0f0f0f0fu) << 4);
-  return __builtin_bswap32(v);
+  v = ((v >> 8) & 0x00ff00ffu) | ((v & 0x00ff00ffu) << 8);
+  return (v >> 16) | (v << 16);
 }
 
 // Flips each bit by a hash of those below it: Owen scrambling of the reversed number.
@@ -60,25 +61,35 @@ class Sampler {
  public:
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
       : key_(bits::mixed(bits::mixed(seed + bits::kStep) + (pixel + 1u) * bits::kStep)),
-        reversed_sample_(bits::reversedBits(sample)) {}
-  /// Both numbers of a pair of dimensions as fractions of 2^32.
-  glm::uvec2 numbers(std::uint32_t pair) const {
+        place_(bits::reversedBits(sample)) {}
+
+  /// What all samples of a pixel have in common in one pair of dimensions.
+  struct Scramble {
+    std::uint32_t order = 0, x = 0, y = 0;
+  };
+  Scramble scramble(std::uint32_t pair) const {
     const std::uint64_t a = bits::mixed(key_ + (2u * pair + 1u) * bits::kStep),
                         b = bits::mixed(key_ + (2u * pair + 2u) * bits::kStep);
-    const std::uint32_t index = bits::reversedBits(bits::scrambled(reversed_sample_, std::uint32_t(a)));
-    return {bits::reversedBits(bits::scrambled(index, std::uint32_t(b))),
-            bits::reversedBits(bits::scrambled(bits::pascal(index), std::uint32_t(b >> 32)))};
+    return {std::uint32_t(a), std::uint32_t(b), std::uint32_t(b >> 32)};
   }
+  /// Of the sample.
+  std::uint32_t place() const { return place_; }
+  static glm::uvec2 numbers(const Scramble& scramble, std::uint32_t place) {
+    const std::uint32_t index = bits::reversedBits(bits::scrambled(place, scramble.order));
+    return {bits::reversedBits(bits::scrambled(index, scramble.x)),
+            bits::reversedBits(bits::scrambled(bits::pascal(index), scramble.y))};
+  }
+
+  /// Both numbers of a pair of dimensions as fractions of 2^32.
+  glm::uvec2 numbers(std::uint32_t pair) const { return numbers(scramble(pair), place_); }
   /// The same in [0, 1).
-  glm::vec2 pair(std::uint32_t pair_index) const {
-    const glm::uvec2 b = numbers(pair_index);
-    return {toUnit(b.x), toUnit(b.y)};
-  }
-  static float toUnit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
+  glm::vec2 pair(std::uint32_t pair_index) const { return unit(numbers(pair_index)); }
+  static glm::vec2 unit(const glm::uvec2& numbers) { return {toUnit(numbers.x), toUnit(numbers.y)}; }
+  static float toUnit(std::uint32_t bits) { return float(std::int32_t(bits >> 8)) * 0x1p-24f; }
 
  private:
   std::uint64_t key_;
-  std::uint32_t reversed_sample_;
+  std::uint32_t place_;
 };
 
 }  // namespace gloam::reference

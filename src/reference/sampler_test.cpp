@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <vector>
 
+#include "reference/angles.h"
 #include "reference/distribution.h"
+#include "reference/lanes.h"
 
 namespace gloam::reference {
 namespace {
@@ -67,6 +70,44 @@ TEST(Sampler, FollowsFromItsArguments) {
   EXPECT_EQ(Sampler(5, 6, 7).numbers(8), Sampler(5, 6, 7).numbers(8));
   EXPECT_NE(Sampler(5, 6, 7).numbers(8), Sampler(6, 6, 7).numbers(8));
   EXPECT_LT(Sampler::toUnit(0xffffffffu), 1.0f);
+}
+
+TEST(Lanes, AreTheFunctionsForOne) {
+  LaneBits places, x, y;
+  LaneFloats u, v, longitude, elevation, cosine;
+  LaneVectors normals, directions;
+  const Sampler first(3, 4, 0);
+  for (std::uint32_t i = 0; i < std::uint32_t(kLanes); ++i) places.at[i] = Sampler(3, 4, 77 * i).place();
+  numbersOfLanes(first.scramble(9), places, x, y);
+  for (int i = 0; i < kLanes; ++i) {
+    EXPECT_EQ(glm::uvec2(x.at[i], y.at[i]), Sampler(3, 4, 77u * std::uint32_t(i)).numbers(9));
+    u.at[i] = Sampler::toUnit(x.at[i]);
+    v.at[i] = Sampler::toUnit(y.at[i]);
+    normals.set(i, glm::normalize(glm::vec3(u.at[i] - 0.5f, v.at[i] - 0.5f, 0.1f)));
+  }
+  cosineOfLanes(u, v, normals, directions);
+  anglesOfLanes(directions, longitude, elevation, cosine);
+  for (int i = 0; i < kLanes; ++i) {
+    const glm::vec3 d = directions.get(i);
+    EXPECT_EQ(d, angles::cosineAbout(normals.get(i), u.at[i], v.at[i]));
+    EXPECT_NEAR(glm::dot(d, normals.get(i)), std::sqrt(1.0f - u.at[i]), 1e-5f);
+    EXPECT_EQ(longitude.at[i], angles::turns(d.z, d.x));
+    EXPECT_EQ(elevation.at[i], angles::turns(d.y, cosine.at[i]));
+  }
+}
+
+TEST(Angles, AreThoseOfTheMathematicsLibrary) {
+  constexpr double kTurn = 2.0 * 3.14159265358979323846;
+  for (int i = -1000; i <= 1000; ++i) {
+    const float turns = float(i) / 1000.0f;
+    const angles::Circle circle = angles::circle(turns);
+    EXPECT_NEAR(circle.cosine, std::cos(kTurn * double(turns)), 5e-7);
+    EXPECT_NEAR(circle.sine, std::sin(kTurn * double(turns)), 5e-7);
+    const float x = circle.cosine * 3.0f, y = circle.sine * 3.0f;
+    EXPECT_NEAR(angles::turns(y, x), std::atan2(double(y), double(x)) / kTurn, 1e-7);
+  }
+  EXPECT_EQ(angles::turns(0.0f, 0.0f), 0.0f);
+  EXPECT_EQ(angles::turns(0.0f, -2.0f), 0.5f);
 }
 
 TEST(Distribution, ChoosesWithTheProbabilityItTells) {

@@ -75,9 +75,8 @@ void Surfaces::setLobes(Vertex& vertex, int instance, const trace::SurfacePoint&
   vertex.lobes = &s.lobes;
   if (s.uniform) return;
   const trace::MaterialPoint point = trace::materialAt(scene_, *s.mesh, at, texture_at);
-  vertex.own_lobes =
-      readyLobes(glm::vec3(point.base_color), point.metallic, point.roughness, s.material->specular);
-  vertex.lobes = &vertex.own_lobes;
+  vertex.lobes = &vertex.own_lobes.emplace(
+      readyLobes(glm::vec3(point.base_color), point.metallic, point.roughness, s.material->specular));
 }
 
 glm::vec3 Surfaces::tilted(const Surface& s, const glm::uvec3& corners, const trace::SurfacePoint& at,

@@ -7,6 +7,8 @@
 
 #include <gloam/scene.h>
 
+#include <optional>
+
 #include "reference/lobes.h"
 #include "trace/surface.h"
 #include "trace/tracer.h"
@@ -20,7 +22,7 @@ struct Vertex {
   glm::vec3 normal{0.0f};             ///< shading normal, by the rule of sides (frame/README.md)
   float ray_offset = 0.0f;            ///< rays start that far off, along the geometric normal (trace/rays.h)
   const LobesReady* lobes = nullptr;  ///< those of the whole surface, or own_lobes
-  LobesReady own_lobes;
+  std::optional<LobesReady> own_lobes;
 
   Vertex() = default;
   Vertex(const Vertex&) = delete;
@@ -35,6 +37,18 @@ class Surfaces {
   /// What a ray in that direction meets. `texture_shift` moves textures alone: by that much of the triangle's coordinates.
   void setVertex(Vertex& vertex, const trace::Hit& hit, const glm::vec3& direction,
                  const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
+  /// Sends for what setVertex will need: first which vertices, then, when that has come, the vertices.
+  void prefetchCorners(const trace::Hit& hit) const {
+    __builtin_prefetch(&instances_[std::size_t(hit.instance)].triangles.vertices[hit.triangle]);
+  }
+  void prefetchVertices(const trace::Hit& hit) const {
+    const Surface& s = instances_[std::size_t(hit.instance)];
+    const glm::uvec3& corner = s.triangles.vertices[hit.triangle];
+    for (int i = 0; i < 3; ++i) {
+      __builtin_prefetch(&s.triangles.positions[corner[i]]);
+      __builtin_prefetch(&s.normals[corner[i]]);
+    }
+  }
   /// Whether a texture shift changes anything.
   bool textured(int instance) const { return instances_[std::size_t(instance)].textured; }
 

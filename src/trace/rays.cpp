@@ -6,11 +6,6 @@
 
 namespace gloam::trace {
 
-float surfaceOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-  return std::max(largest.x, std::max(largest.y, largest.z)) * 0x1p-18f;
-}
-
 RayPacket::RayPacket() {
   setOrigin(glm::vec3(0.0f));
   const auto fill = [](auto* lanes, auto value) { std::fill_n(lanes, kPacketSize, value); };

@@ -4,6 +4,7 @@
 // Rays, packets of rays and what they hit. Plain data; nothing of the tracing library shows here.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -41,7 +42,10 @@ struct LoggedRay {
 /// place of the largest coordinate of its corners (some micrometres in a room). The origin is moved by this much along the
 /// geometric normal, to the side into which the ray leaves. No t_near: in grazing directions it would step over thin gaps.
 /// Large triangles elsewhere do not matter: rays are tested relative to their origin.
-float surfaceOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+inline float surfaceOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  return std::max(largest.x, std::max(largest.y, largest.z)) * 0x1p-18f;
+}
 
 /// Sixteen rays, laid out so that the tracing library takes them as they lie. A lane that was found occluded has
 /// t_far = -infinity afterwards; whoever uses the packet again sets t_far again. Nothing else is changed.

@@ -118,7 +118,7 @@ RTCRay embreeRay(const Ray& ray) {
 
 glm::vec3 unit(const glm::vec3& v) {
   const float length = glm::length(v);
-  return length > 0.0f ? v / length : v;
+  return length > 0.0f ? v * (1.0f / length) : v;
 }
 
 }  // namespace
