@@ -14,8 +14,9 @@ namespace gloam::cli {
 
 class Console {
  public:
-  bool quiet = false;  ///< no remarks, no progress
-  bool json = false;   ///< the result is one JSON value on standard output, nothing else there
+  bool quiet = false;   ///< no remarks, no progress
+  bool json = false;    ///< the result is one JSON value on standard output, nothing else there
+  std::string command;  ///< as it was typed, quoted for a shell
 
   /// One line on standard error that a user may want to know ("no light: sky:mild"). Held back until release(), so that
   /// bad input is answered by its error alone.
@@ -46,6 +47,8 @@ class Console {
 void catchInterrupts();
 bool interrupted();
 
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shellWord(const std::string& word);
 /// Without line breaks and control characters: names from files may hold any.
 std::string singleLine(std::string text);
 /// "1 h 12 min", "3 min 20 s", "12 s", "0.4 s".

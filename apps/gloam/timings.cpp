@@ -29,7 +29,12 @@ void Timings::add(const RenderedFrame& frame, double frame_ms) {
   frame_ms_.push_back(frame_ms);
   memory_bytes_ = std::max(memory_bytes_, frame.memory_bytes);
   std::map<std::string, double> sums;
-  for (const PassTime& pass : frame.passes) sums[pass.name] += pass.milliseconds;
+  double all = 0.0;
+  for (const PassTime& pass : frame.passes) {
+    sums[pass.name] += pass.milliseconds;
+    all += pass.milliseconds;
+  }
+  passes_ms_.push_back(all);
   for (const PassTime& pass : frame.passes) {
     const auto sum = sums.find(pass.name);
     if (sum == sums.end()) continue;
@@ -42,6 +47,10 @@ void Timings::add(const RenderedFrame& frame, double frame_ms) {
 
 double Timings::medianFrameMs() const {
   return quantile(frame_ms_, 0.5);
+}
+
+double Timings::medianPassesMs() const {
+  return quantile(passes_ms_, 0.5);
 }
 
 Json Timings::passesJson() const {

@@ -18,6 +18,8 @@ class Timings {
   void add(const RenderedFrame& frame, double frame_ms);
 
   double medianFrameMs() const;
+  /// Of all passes of a frame together.
+  double medianPassesMs() const;
   std::size_t memoryBytes() const { return memory_bytes_; }
   /// [{"name", "median_ms", "p95_ms"}], in the order in which passes run.
   Json passesJson() const;
@@ -30,7 +32,7 @@ class Timings {
     std::vector<double> milliseconds;
   };
   std::vector<Pass> passes_;
-  std::vector<double> frame_ms_;
+  std::vector<double> frame_ms_, passes_ms_;
   std::size_t memory_bytes_ = 0;
 };
 

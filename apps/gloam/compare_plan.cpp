@@ -1,0 +1,151 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "compare_plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace gloam::cli {
+namespace {
+
+struct CoverageMember {
+  const char* name;
+  bool Coverage::*member;
+  bool direct;
+};
+constexpr CoverageMember kMembers[] = {
+    {"environment_direct", &Coverage::environment_direct, true},
+    {"environment_indirect", &Coverage::environment_indirect, false},
+    {"local_direct", &Coverage::local_direct, true},
+    {"local_indirect", &Coverage::local_indirect, false},
+    {"emitter_direct", &Coverage::emitter_direct, true},
+    {"emitter_indirect", &Coverage::emitter_indirect, false},
+};
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
+    parts.push_back(text.substr(begin, end - begin));
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+Contender contenderOf(const std::string& text, const TechniqueChoice& common) {
+  const std::vector<std::string> parts = splitAt(text, ':');
+  std::vector<std::string> names;
+  for (const TechniqueInfo& info : techniques()) names.emplace_back(info.name);
+  if (std::ranges::find(names, parts.front()) == names.end()) {
+    throw Error("--techniques", fmt::format("'{}'{}: expected {}, each with :OPTION=VALUE as often as wanted",
+                                            parts.front(), didYouMean(parts.front(), names), listed(names)));
+  }
+  Contender contender{&technique(parts.front()), {}, parts.front(), parts.front()};
+  contender.settings = settingsFor(*contender.technique, common);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::size_t equals = parts[i].find('=');
+    if (equals == std::string::npos) {
+      throw Error("--techniques", fmt::format("'{}': expected OPTION=VALUE after {}:", parts[i], parts[0]));
+    }
+    try {
+      contender.settings.set(parts[i].substr(0, equals), parts[i].substr(equals + 1));
+    } catch (const Error& error) {
+      throw Error(fmt::format("--techniques {}", text), error.what());
+    }
+    contender.label += " " + parts[i];
+    contender.stem += "_" + parts[i];
+  }
+  return contender;
+}
+
+float brightest(const glm::vec3& color) {
+  return std::max({color.r, color.g, color.b});
+}
+
+bool emits(const Scene& scene, const PosedScene& posed) {
+  return std::ranges::any_of(posed.instances, [&](const Instance& instance) {
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const glm::vec3& emission = scene.materials[std::size_t(mesh.material)].emission;
+    return !mesh.indices.empty() && brightest(emission) > 0.0f;
+  });
+}
+
+}  // namespace
+
+std::vector<Contender> planContenders(const std::string& list, const TechniqueChoice& common) {
+  std::vector<Contender> contenders;
+  for (const std::string& text : splitAt(list, ',')) {
+    Contender contender = contenderOf(text, common);
+    for (const Contender& other : contenders) {
+      if (other.technique == contender.technique && other.settings.list() == contender.settings.list()) {
+        throw Error("--techniques", fmt::format("'{}' is the same as '{}'", contender.label, other.label));
+      }
+    }
+    contenders.push_back(std::move(contender));
+  }
+  return contenders;
+}
+
+std::vector<Contender> allContenders(const TechniqueChoice& common) {
+  std::vector<Contender> contenders;
+  for (const TechniqueInfo& info : techniques()) contenders.push_back(contenderOf(info.name, common));
+  return contenders;
+}
+
+Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces) {
+  Coverage light;
+  light.environment_direct = !environment.empty() && environment.intensity > 0.0f;
+  light.local_direct = std::ranges::any_of(
+      posed.lights, [](const PosedLight& lamp) { return brightest(lamp.light.intensity) > 0.0f; });
+  light.emitter_direct = emits(scene, posed);
+  light.environment_indirect = light.environment_direct && bounces > 0;
+  light.local_indirect = light.local_direct && bounces > 0;
+  light.emitter_indirect = light.emitter_direct && bounces > 0;
+  return light;
+}
+
+Coverage both(const Coverage& a, const Coverage& b) {
+  Coverage result;
+  for (const CoverageMember& m : kMembers) result.*m.member = a.*m.member && b.*m.member;
+  return result;
+}
+
+Coverage without(const Coverage& a, const Coverage& b) {
+  Coverage result;
+  for (const CoverageMember& m : kMembers) result.*m.member = a.*m.member && !(b.*m.member);
+  return result;
+}
+
+std::vector<std::string> coverageNames(const Coverage& coverage) {
+  std::vector<std::string> names;
+  for (const CoverageMember& m : kMembers) {
+    if (coverage.*m.member) names.emplace_back(m.name);
+  }
+  return names;
+}
+
+bool anyDirect(const Coverage& coverage) {
+  return std::ranges::any_of(kMembers,
+                             [&](const CoverageMember& m) { return m.direct && coverage.*m.member; });
+}
+
+bool anyIndirect(const Coverage& coverage) {
+  return std::ranges::any_of(kMembers,
+                             [&](const CoverageMember& m) { return !m.direct && coverage.*m.member; });
+}
+
+bool lights(const Contender& contender, const Coverage& in_scene) {
+  return both(contender.technique->covers, in_scene) != Coverage{};
+}
+
+void requireLight(const Contender& contender, const Coverage& in_scene) {
+  if (lights(contender, in_scene)) return;
+  const std::vector<std::string> there = coverageNames(in_scene);
+  throw Error("--techniques",
+              fmt::format("{} cannot light this scene: it covers {}; the scene has {}",
+                          contender.technique->name, listed(coverageNames(contender.technique->covers)),
+                          there.empty() ? "no light" : fmt::format("{} alone", listed(there))));
+}
+
+}  // namespace gloam::cli

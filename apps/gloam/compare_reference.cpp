@@ -1,0 +1,194 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "compare_reference.h"
+
+#include <fmt/core.h>
+#include <scene/scene_fingerprint.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a reference that was made here is known by: the path tracer's own attributes say what is in it, not of which scene.
+constexpr const char* kInputs = "gloam.compare.inputs";
+
+template <class Number>
+std::optional<Number> attribute(const LayeredImage& image, const char* name) {
+  const auto found = image.attributes.find(name);
+  if (found == image.attributes.end()) return std::nullopt;
+  Number value{};
+  const std::string& text = found->second;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+ReferencePicture pictureOf(LayeredImage layers, const fs::path& file) {
+  ReferencePicture picture;
+  picture.file = file;
+  picture.samples = attribute<int>(layers, "gloam.samples");
+  picture.noise = attribute<double>(layers, "gloam.noise");
+  picture.bounces = attribute<int>(layers, "gloam.bounces").value_or(1);
+  picture.environment_order = attribute<int>(layers, "gloam.environment_order").value_or(0);
+  picture.supersample = attribute<int>(layers, "gloam.supersample").value_or(1);
+  picture.background = attribute<int>(layers, "gloam.background").value_or(1) != 0;
+  picture.layers = std::move(layers);
+  return picture;
+}
+
+void requireFinite(const LayeredImage& image, const fs::path& file) {
+  const std::size_t width = std::size_t(image.width);
+  for (const Layer& layer : image.layers) {
+    const auto bad = std::ranges::find_if(layer.pixels, [](float value) { return !std::isfinite(value); });
+    if (bad == layer.pixels.end()) continue;
+    const std::size_t at = std::size_t(bad - layer.pixels.begin()), channels = layer.channels.size();
+    const std::size_t pixel = at / channels;
+    const std::string& channel = layer.channels[at % channels];
+    throw Error(file.string(),
+                fmt::format("channel {}{}{} is {} at pixel {}, {}: no reference", layer.name,
+                            layer.name.empty() ? "" : ".", channel,
+                            std::isnan(*bad) ? "not a number" : "infinite", pixel % width, pixel / width));
+  }
+}
+
+std::string inputsOf(const ReferenceScene& scene, const ReferenceOptions& options) {
+  Fingerprint print;
+  addAll(print, std::string(GLOAM_VERSION), scene.scene, scene.posed, scene.camera, scene.environment);
+  addAll(print, options.width, options.height, options.supersample, options.bounces,
+         options.environment_order, options.background, options.seed);
+  return print.text();
+}
+
+/// What the same command left behind, where it is good enough; any other file is as good as none.
+std::optional<ReferencePicture> readKept(const fs::path& file, const std::string& inputs, int samples,
+                                         float noise) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  try {
+    ReferencePicture kept = pictureOf(readExr(file), file);
+    const auto found = kept.layers.attributes.find(kInputs);
+    if (found == kept.layers.attributes.end() || found->second != inputs) return std::nullopt;
+    const bool enough = kept.samples.value_or(0) >= samples ||
+                        (noise > 0.0f && kept.noise.value_or(INFINITY) <= double(noise));
+    if (enough) return kept;
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+std::string samplesText(const ReferencePicture& picture, const std::string& more) {
+  return fmt::format("{} paths a pixel, {} {}, {}", countText(std::size_t(picture.samples.value_or(0))),
+                     picture.bounces, picture.bounces == 1 ? "bounce" : "bounces", more);
+}
+
+/// A checkpoint that cannot be used (of other inputs, damaged) is nobody's but this folder's: it goes.
+LayeredImage traceResumed(const ReferenceScene& scene, const ReferenceOptions& options,
+                          const ReferenceGoal& goal, const Progress& progress, ReferenceReport& report) {
+  const auto trace = [&] {
+    return renderReference(scene.scene, scene.posed, scene.camera, scene.environment, options, goal, true,
+                           progress, &report);
+  };
+  std::error_code ignored;
+  try {
+    try {
+      return trace();
+    } catch (const Error& error) {
+      if (!std::string(error.what()).starts_with(goal.checkpoint.string())) throw;
+      if (!fs::remove(goal.checkpoint, ignored)) throw;
+      return trace();
+    }
+  } catch (const Interrupted&) {
+    throw Interrupted(
+        fs::exists(goal.checkpoint, ignored)
+            ? fmt::format("interrupted while tracing the reference; the same command goes on from {}",
+                          goal.checkpoint.string())
+            : "interrupted before the reference had begun");
+  }
+}
+
+}  // namespace
+
+ReferencePicture readReference(const fs::path& file) {
+  LayeredImage layers = readExr(file);
+  coverageOf(layers, file.string());
+  requireFinite(layers, file);
+  ReferencePicture picture = pictureOf(std::move(layers), file);
+  picture.text = samplesText(picture, file.string());
+  return picture;
+}
+
+ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOptions& options, int samples,
+                                float noise, const fs::path& file, const Progress& progress,
+                                Console& console) {
+  const std::string inputs = inputsOf(scene, options);
+  if (std::optional<ReferencePicture> kept = readKept(file, inputs, samples, noise)) {
+    kept->text = samplesText(*kept, file.filename().string());
+    console.remark(fmt::format("the reference is taken from {} ({} paths a pixel)", file.string(),
+                               countText(std::size_t(kept->samples.value_or(0)))));
+    return *std::move(kept);
+  }
+  ReferenceReport report;
+  ReferenceGoal goal{samples, noise, fs::path(file).replace_extension(".checkpoint")};
+  LayeredImage layers = traceResumed(scene, options, goal, progress, report);
+  layers.attributes[kInputs] = inputs;
+  writeExr(layers, file);
+  ReferencePicture picture = pictureOf(std::move(layers), file);
+  picture.text = samplesText(
+      picture, fmt::format("{}, traced in {}{}", file.filename().string(), durationText(report.seconds),
+                           report.resumed ? " after it was taken up again" : ""));
+  return picture;
+}
+
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part) {
+  const LayeredImage all = imageOf(reference.layers, part, reference.file.string());
+  LayeredImage light;
+  light.width = all.width, light.height = all.height;
+  light.attributes = all.attributes;
+  light.attributes.erase(kInputs);
+  for (const char* name : {"", "direct", "indirect"}) {
+    const Layer* layer = all.find(name);
+    if (layer == nullptr) throw Error(reference.file.string(), fmt::format("layer '{}' is missing", name));
+    light.layers.push_back(*layer);
+    light.layers.back().type = ChannelType::kHalf;
+  }
+  const Layer* objects = reference.layers.find("object");
+  if (reference.background && objects != nullptr) light.layers.push_back(*objects);
+  return light;
+}
+
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Image& mask) {
+  if (reference.layers.find("variance") == nullptr || reference.samples.value_or(0) < 2) return std::nullopt;
+  const std::vector<std::string> rgb = {"R", "G", "B"};
+  const Image variance = reference.layers.image("variance", rgb, reference.file.string());
+  const Image light = reference.layers.image("", rgb, reference.file.string());
+  double variances = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < light.pixels.size(); ++i) {
+    if (mask.pixels[i / 3] == 0.0f) continue;
+    variances += double(variance.pixels[i]);
+    squares += double(light.pixels[i]) * double(light.pixels[i]);
+  }
+  if (squares <= 0.0) return std::nullopt;
+  return std::sqrt(variances / squares);
+}
+
+Image surfaceMask(const ReferencePicture& reference) {
+  const Image alpha = reference.layers.image("", {"A"}, reference.file.string());
+  const Layer* objects = reference.layers.find("object");
+  const bool by_object = reference.background && objects != nullptr && !objects->ids.empty();
+  Image mask(alpha.width, alpha.height, 1);
+  bool any = false;
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    const bool seen = by_object ? objects->ids[i] != 0 : alpha.pixels[i] > 0.0f;
+    mask.pixels[i] = seen ? 1.0f : 0.0f;
+    any |= seen;
+  }
+  if (!any) throw Error(reference.file.string(), "shows no surface: nothing to compare");
+  return mask;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,54 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Where the reference of a comparison comes from: a file that was given, the same command's last run, or the path tracer.
+#pragma once
+
+#include <gloam/reference.h>
+
+#include <optional>
+#include <string>
+
+#include "console.h"
+
+namespace gloam::cli {
+
+struct ReferencePicture {
+  LayeredImage layers;  ///< all that `imageOf` takes parts from
+  std::filesystem::path file;
+  std::string text;  ///< where it came from, for people
+  std::optional<int> samples;
+  std::optional<double> noise;
+  int bounces = 1, environment_order = 0, supersample = 1;
+  bool background = false;  ///< drawn behind the scene
+};
+
+/// Reads a reference that was given: throws Error where it does not say what light it holds, or holds values that are not
+/// finite.
+ReferencePicture readReference(const std::filesystem::path& file);
+
+/// What is traced.
+struct ReferenceScene {
+  const Scene& scene;
+  const PosedScene& posed;
+  const PosedCamera& camera;
+  const Environment& environment;
+};
+/// `file` where it holds what this call would trace, with as many samples at least or as little noise; else traces, and
+/// writes it there. Interrupted work lies beside it and is taken up again.
+ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOptions& options, int samples,
+                                float noise, const std::filesystem::path& file, const Progress& progress,
+                                Console& console);
+
+/// Light alone (R G B A, direct, indirect), as halves, for one technique: `part` of what the reference holds. Alpha, or
+/// objects where the background is drawn, tell where a surface is seen.
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part);
+
+/// The relative error that noise alone makes of the whole picture: root of the variances' sum over the picture's squares,
+/// where the mask is 1. Nothing where the reference does not hold its variance.
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Image& mask);
+
+/// One channel: 1 where a surface is seen, as `gloam diff --foreground` finds it. Throws Error where none is.
+Image surfaceMask(const ReferencePicture& reference);
+
+}  // namespace gloam::cli

@@ -1,0 +1,54 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What `gloam compare` found, and how it is written: results.json (its shape is kept stable), results.csv.
+#pragma once
+
+#include <gloam/metrics.h>
+#include <gloam/scene.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json.h"
+
+namespace gloam::cli {
+
+/// The error of one layer's light; nothing where the technique is not to have such light.
+using LayerError = std::optional<Metrics>;
+
+struct TechniqueResult {
+  std::string name, label;
+  Json settings = Json::object();
+  LayerError sum, direct, indirect;
+  double device_ms = 0.0, frame_ms = 0.0;  ///< medians: of a frame's passes together, and by the clock
+  Json passes = Json::array();
+  std::size_t memory_bytes = 0;
+  std::optional<double> bake_seconds;
+  std::string bake_note;     ///< where the time of a bake is not known: why
+  Coverage covers, missing;  ///< of the light that the scene has
+  Warnings notes;
+  std::filesystem::path file, reference_file;  ///< that were measured
+  std::string command;                         ///< that prints the same measures
+};
+
+struct CompareResults {
+  std::string scene, environment, size, device, command;
+  int bounces = 0, environment_order = 0;
+  std::filesystem::path reference_file;
+  std::string reference_text;  ///< where it came from, for people
+  std::optional<int> reference_samples;
+  /// PathTracer::noise(), and the relative error of all light that noise alone makes.
+  std::optional<double> reference_noise, reference_relative_noise;
+  std::vector<TechniqueResult> techniques;
+};
+
+Json resultsJson(const CompareResults& results);
+/// A line a technique and layer, under a line of names; empty where a measure does not apply.
+std::string resultsCsv(const CompareResults& results);
+/// A table for people.
+std::vector<std::string> resultsTable(const CompareResults& results);
+
+}  // namespace gloam::cli

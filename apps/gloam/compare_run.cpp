@@ -1,0 +1,307 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The order is: all that can go wrong quickly; every contender drawn; the reference, which takes longest; measures of the
+// pictures as their files hold them; the page. What was written stays when interrupted.
+#include "compare_run.h"
+
+#include <fmt/core.h>
+#include <image/atomic_file.h>
+#include <image/tonemap.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare_page.h"
+#include "compare_reference.h"
+#include "compare_results.h"
+#include "compare_stage.h"
+#include "output.h"
+#include "spheres_run.h"
+#include "verb.h"
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kRgb = {"R", "G", "B"};
+
+/// A stretch of the whole work.
+Progress stretch(const Progress& whole, double from, double to) {
+  Progress part{{}, whole.should_stop};
+  if (whole.update) {
+    part.update = [whole, from, to](double fraction, const std::string& what) {
+      whole.update(from + (to - from) * fraction, what);
+    };
+  }
+  return part;
+}
+
+/// The folder that everything goes to; made when the first file is written, and only its last part.
+class CompareFolder {
+ public:
+  explicit CompareFolder(fs::path path) : path_(std::move(path)) {
+    std::error_code ignored;
+    if (fs::exists(path_, ignored) && !fs::is_directory(path_, ignored)) {
+      throw Error(path_.string(), "is a file; expected a folder to write to");
+    }
+  }
+  void make() const {
+    std::error_code error;
+    if (fs::is_directory(path_, error)) return;
+    fs::create_directory(path_, error);
+    if (error) throw Error(path_.string(), fmt::format("cannot make this folder: {}", error.message()));
+  }
+  fs::path file(const std::string& name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+void writeText(const fs::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+/// Measures of one layer of a pair of files, and the FLIP map for the page.
+LayerError measureLayer(const LayeredImage& a, const LayeredImage& reference, const std::string& layer,
+                        const Image& mask, const Progress& progress, PagePicture& picture) {
+  const Image ours = a.image(layer, kRgb, "picture"), truth = reference.image(layer, kRgb, "reference");
+  const std::string name = layer.empty() ? "sum" : layer;
+  MetricOptions options;
+  options.mask = mask;
+  // As `gloam diff` takes numbers from its command line: its answers are to be the same to the last digit.
+  options.pixels_per_degree = double(float(options.pixels_per_degree));
+  const Metrics metrics = measure(ours, truth, options, stretch(progress, 0.0, 0.6));
+  picture.flip[name] = flipMap(ours, truth, options.pixels_per_degree, stretch(progress, 0.6, 1.0));
+  return metrics;
+}
+
+struct Comparison {
+  CompareChoice choice;
+  std::vector<Contender> contenders;
+  CompareStage stage;
+  CompareFolder folder;
+  ReferencePicture reference;
+  CompareResults results;
+  Page page;
+  std::vector<Coverage> parts;  ///< of page.pictures that are references
+};
+
+fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
+  return work.folder.file(fmt::format("reference_{}.exr", contender.technique->name));
+}
+
+void drawAll(Comparison& work, const Progress& progress, Console& console) {
+  const bool background = !work.choice.reference.empty() && work.reference.background;
+  const double count = double(work.contenders.size());
+  for (std::size_t i = 0; i < work.contenders.size(); ++i) {
+    const Contender& contender = work.contenders[i];
+    std::optional<SceneSpheres> spheres;
+    if (contender.technique->needs_spheres)
+      spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
+                                  contender.settings.integer("spheres"));
+    Drawn drawn = drawContender(work.stage, work.choice, contender, spheres ? &*spheres : nullptr, background,
+                                stretch(progress, double(i) / count, double(i + 1) / count));
+    work.folder.make();
+    TechniqueResult result{.name = contender.technique->name, .label = contender.label};
+    result.file = work.folder.file(contender.stem + ".exr");
+    result.reference_file = referenceFileOf(work, contender);
+    writeExr(drawn.picture, result.file);
+    console.release();
+    result.settings = settingsJson(*contender.technique, contender.settings);
+    result.device_ms = drawn.timings.medianPassesMs();
+    result.frame_ms = drawn.timings.medianFrameMs();
+    result.passes = drawn.timings.passesJson();
+    result.memory_bytes = drawn.timings.memoryBytes();
+    result.notes = std::move(drawn.warnings);
+    if (contender.technique->needs_bake) {
+      result.bake_seconds = work.stage.bake_seconds;
+      result.bake_note = work.stage.bake_note;
+    }
+    result.covers = both(contender.technique->covers, work.stage.in_scene);
+    result.missing = without(work.stage.in_scene, contender.technique->covers);
+    work.results.device = drawn.device;
+    work.results.techniques.push_back(std::move(result));
+  }
+}
+
+PagePicture lightPicture(const LayeredImage& light, const std::string& label) {
+  PagePicture picture;
+  picture.label = label;
+  picture.direct = light.image("direct", kRgb, label);
+  picture.indirect = light.image("indirect", kRgb, label);
+  return picture;
+}
+
+void measureAll(Comparison& work, const Image& mask, const Progress& progress) {
+  work.results.reference_relative_noise = relativeNoise(work.reference, mask);
+  const double count = double(work.contenders.size());
+  for (std::size_t i = 0; i < work.contenders.size(); ++i) {
+    if (progress.stopRequested()) {
+      throw Interrupted(fmt::format("interrupted; the pictures are in {}", work.folder.path().string()));
+    }
+    TechniqueResult& result = work.results.techniques[i];
+    writeExr(lightForPart(work.reference, result.covers), result.reference_file);
+    const LayeredImage ours = readExr(result.file), truth = readExr(result.reference_file);
+    PagePicture picture = lightPicture(ours, result.label);
+    picture.technique = int(i);
+    const auto measured = [&](const char* layer, double from, double to) {
+      return measureLayer(ours, truth, layer, mask,
+                          stretch(progress, (double(i) + from) / count, (double(i) + to) / count), picture);
+    };
+    result.sum = measured("", 0.0, 0.34);
+    if (anyDirect(result.covers)) result.direct = measured("direct", 0.34, 0.67);
+    if (anyIndirect(result.covers)) result.indirect = measured("indirect", 0.67, 1.0);
+    result.command = fmt::format("gloam diff {} {} --foreground", shellWord(result.file.string()),
+                                 shellWord(result.reference_file.string()));
+    work.page.pictures.push_back(std::move(picture));
+  }
+}
+
+/// One picture for each part of the light that a technique is held to, and one of all light where none is.
+void addReferencePictures(Comparison& work) {
+  std::vector<PagePicture>& pictures = work.page.pictures;
+  std::vector<TechniqueResult>& techniques = work.results.techniques;
+  std::vector<std::pair<Coverage, std::size_t>> known;
+  for (std::size_t i = 0; i < techniques.size(); ++i) {
+    const Coverage& part = techniques[i].covers;
+    auto found = std::ranges::find(known, part, &std::pair<Coverage, std::size_t>::first);
+    if (found == known.end()) {
+      found = known.insert(known.end(), {part, pictures.size()});
+      pictures.push_back(lightPicture(readExr(techniques[i].reference_file), techniques[i].name));
+    } else if (pictures[found->second].label.find(techniques[i].name) == std::string::npos) {
+      pictures[found->second].label += ", " + techniques[i].name;
+    }
+    pictures[i].reference = int(found->second);
+  }
+  const Coverage all =
+      both(work.stage.in_scene, coverageOf(work.reference.layers, work.reference.file.string()));
+  const bool all_is_there =
+      std::ranges::find(known, all, &std::pair<Coverage, std::size_t>::first) != known.end();
+  for (const auto& [part, index] : known) {
+    std::string& label = pictures[index].label;
+    label = known.size() == 1 && all_is_there ? "Reference" : "Reference for " + label;
+  }
+  if (!all_is_there) pictures.push_back(lightPicture(work.reference.layers, "Reference, all light"));
+}
+
+void writeAll(Comparison& work) {
+  addReferencePictures(work);
+  const Json json = resultsJson(work.results);
+  work.page.title = sceneStem(work.choice.scene.name);
+  work.page.results = json;
+  const Image light = work.reference.layers.image("", {"R", "G", "B", "A"}, "reference");
+  work.page.coverage = work.reference.layers.image("", {"A"}, "reference");
+  const float found = std::round(4.0f * autoExposureStops(meanLog2Luminance(light))) / 4.0f;
+  work.page.exposure_stops = std::clamp(work.choice.exposure_stops.value_or(found), -8.0f, 8.0f);
+  writeText(work.folder.file("results.json"), jsonText(json) + "\n");
+  writeText(work.folder.file("results.csv"), resultsCsv(work.results));
+  writePage(work.page, work.folder.file("index.html"));
+}
+
+void haveReference(Comparison& work, const Progress& progress, Console& console) {
+  const CompareChoice& choice = work.choice;
+  if (choice.reference.empty()) {
+    ReferenceOptions options;
+    options.width = choice.view.size.x, options.height = choice.view.size.y;
+    options.supersample = choice.view.supersample;
+    options.bounces = work.stage.bounces;
+    options.environment_order = choice.environment_order;
+    options.background = false;
+    options.seed = std::uint64_t(choice.seed);
+    constexpr int kSamples = 64, kSamplesByNoise = 65536;
+    const int samples = choice.samples.value_or(choice.noise > 0.0f ? kSamplesByNoise : kSamples);
+    work.reference =
+        traceReference({work.stage.scene, work.stage.posed, work.stage.camera, work.stage.environment},
+                       options, samples, choice.noise, work.folder.file("reference.exr"), progress, console);
+  }
+  work.results.bounces = work.stage.bounces;
+  work.results.environment_order = work.reference.environment_order;
+  work.results.reference_file = work.reference.file;
+  work.results.reference_text = work.reference.text;
+  work.results.reference_samples = work.reference.samples;
+  work.results.reference_noise = work.reference.noise;
+}
+
+/// Pictures are drawn as the reference is, unless that contradicts what was asked for.
+ReferencePicture takeReference(CompareChoice& choice) {
+  ReferencePicture given = readReference(choice.reference);
+  const glm::ivec2 size{given.layers.width, given.layers.height};
+  const auto require = [&](bool same, const char* option, const std::string& asked, const std::string& has) {
+    if (!same) throw Error(option, fmt::format("{} was asked for, {} has {}", asked, choice.reference, has));
+  };
+  const auto sizeText = [](const glm::ivec2& s) { return fmt::format("{}x{}", s.x, s.y); };
+  if (choice.size_given) {
+    require(choice.view.size == size, "--size", sizeText(choice.view.size), sizeText(size));
+  }
+  if (choice.supersample_given) {
+    require(choice.view.supersample == given.supersample, "--supersample",
+            std::to_string(choice.view.supersample), std::to_string(given.supersample));
+  }
+  if (choice.bounces) {
+    require(*choice.bounces == given.bounces, "--bounces", std::to_string(*choice.bounces),
+            std::to_string(given.bounces));
+  }
+  choice.view.size = size;
+  choice.view.supersample = given.supersample;
+  return given;
+}
+
+void checkGivenReference(Comparison& work) {
+  for (const Contender& contender : work.contenders) {
+    imageOf(work.reference.layers, both(contender.technique->covers, work.stage.in_scene),
+            work.choice.reference);
+  }
+}
+
+}  // namespace
+
+int runCompare(CompareChoice choice, Console& console) {
+  std::vector<Contender> contenders = choice.techniques.empty()
+                                          ? allContenders(choice.options)
+                                          : planContenders(choice.techniques, choice.options);
+  if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_compare";
+  CompareFolder folder(choice.output);
+  ReferencePicture given;
+  if (!choice.reference.empty()) given = takeReference(choice);
+  const std::optional<int> bounces =
+      choice.reference.empty() ? std::nullopt : std::optional<int>(given.bounces);
+  CompareStage stage = prepareCompareStage(choice, contenders, bounces, console);
+  Comparison work{std::move(choice),
+                  std::move(contenders),
+                  std::move(stage),
+                  std::move(folder),
+                  std::move(given),
+                  {},
+                  {},
+                  {}};
+  if (!work.choice.reference.empty()) checkGivenReference(work);
+  bakeCompareStage(work.stage, work.choice, work.contenders, console);
+  work.results.scene = work.choice.scene.name;
+  work.results.environment = work.stage.environment.name;
+  work.results.size = fmt::format("{}x{}", work.choice.view.size.x, work.choice.view.size.y);
+  work.results.command = console.command;
+
+  const bool traces = work.choice.reference.empty();
+  const Progress whole = console.progress();
+  const double drawn = traces ? 0.15 : 0.5, traced = traces ? 0.8 : 0.5;
+  drawAll(work, stretch(whole, 0.0, drawn), console);
+  haveReference(work, stretch(whole, drawn, traced), console);
+  measureAll(work, surfaceMask(work.reference), stretch(whole, traced, 0.97));
+  whole.report(0.97, "page");
+  writeAll(work);
+  console.endProgress();
+  if (console.json) {
+    console.print(jsonText(resultsJson(work.results)));
+  } else {
+    for (const std::string& line : resultsTable(work.results)) console.print(line);
+    console.remark(fmt::format("wrote {}", work.folder.file("index.html").string()));
+  }
+  return kDone;
+}
+
+}  // namespace gloam::cli

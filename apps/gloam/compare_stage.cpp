@@ -1,0 +1,108 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "compare_stage.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace gloam::cli {
+namespace {
+
+constexpr int kWarmUpFrames = 2;  // shaders are compiled and memory is first touched there
+
+bool anyNeedsBake(const std::vector<Contender>& contenders) {
+  return std::ranges::any_of(contenders, [](const Contender& c) { return c.technique->needs_bake; });
+}
+
+/// Bounces that a scene's transfer holds.
+int bakedBounces(const Scene& scene) {
+  int bounces = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.transfer)
+      bounces = std::max(bounces, mesh.transfer->indirect.empty() ? 0 : mesh.transfer->bounces);
+  }
+  return bounces;
+}
+
+int chooseBounces(const CompareChoice& choice, const Scene& scene, const std::vector<Contender>& contenders) {
+  if (choice.bounces) return *choice.bounces;
+  if (!anyNeedsBake(contenders)) return 1;
+  return carriesTransfer(scene) ? bakedBounces(scene) : BakeOptions{}.bounces;
+}
+
+}  // namespace
+
+CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Contender>& contenders,
+                                 std::optional<int> reference_bounces, Console& console) {
+  CompareStage stage;
+  stage.scene = loadSceneToDraw(choice.scene, console);
+  stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.posed = pose(stage.scene, choice.view.time_s);
+  stage.camera = chooseCamera(stage.posed, choice.view, console);
+  stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage.scene, contenders));
+  stage.in_scene = lightIn(stage.scene, stage.posed, stage.environment, stage.bounces);
+  const auto dark = [&](const Contender& contender) { return !lights(contender, stage.in_scene); };
+  if (choice.techniques.empty() && !std::ranges::all_of(contenders, dark)) std::erase_if(contenders, dark);
+  for (const Contender& contender : contenders) requireLight(contender, stage.in_scene);
+  return stage;
+}
+
+void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
+                      const std::vector<Contender>& contenders, Console& console) {
+  if (!anyNeedsBake(contenders)) return;
+  if (carriesTransfer(stage.scene)) {
+    stage.bake_note = "the file was baked beforehand";
+    const int baked = bakedBounces(stage.scene);
+    if (baked != stage.bounces) {
+      console.remark(
+          fmt::format("{} was baked with {} bounces, the reference has {}: their indirect light differs",
+                      choice.scene.name, baked, stage.bounces));
+    }
+    return;
+  }
+  const BakeOptions options = drawingBake(stage.scene, choice.view.time_s, std::min(stage.bounces, 64));
+  BakeTime time;
+  stage.baked = bakeForDrawing(stage.scene, choice.scene.name, options, choice.use_cache, console, &time);
+  stage.bake_seconds = time.seconds;
+  stage.bake_note = time.note;
+}
+
+Drawn drawContender(const CompareStage& stage, const CompareChoice& choice, const Contender& contender,
+                    const SceneSpheres* spheres, bool background, const Progress& progress) {
+  using Clock = std::chrono::steady_clock;
+  const Scene& scene = stage.sceneFor(contender);
+  const PosedScene posed = &scene == &stage.scene ? stage.posed : pose(scene, choice.view.time_s);
+  Renderer renderer(choice.device);
+  renderer.setScene(scene);
+  renderer.setEnvironment(stage.environment);
+  if (spheres != nullptr) renderer.setSpheres(scene, *spheres);
+  RenderOptions options;
+  options.width = choice.view.size.x, options.height = choice.view.size.y;
+  options.supersample = choice.view.supersample;
+  options.technique = contender.technique->name;
+  options.settings = contender.settings;
+  options.background = background;
+  options.timings = true;
+  options.layers = false;
+  Drawn drawn;
+  const int frames = kWarmUpFrames + choice.frames;
+  for (int i = 0; i < frames; ++i) {
+    if (progress.stopRequested()) throw Interrupted("interrupted");
+    progress.report(double(i) / double(frames + 1), contender.label);
+    const auto started = Clock::now();
+    const RenderedFrame frame = renderer.render(posed, stage.camera, options);
+    const std::chrono::duration<double, std::milli> took = Clock::now() - started;
+    if (i >= kWarmUpFrames) drawn.timings.add(frame, took.count());
+  }
+  options.timings = false, options.layers = true;
+  RenderedFrame picture = renderer.render(posed, stage.camera, options);
+  checkValidation(renderer);
+  drawn.picture = std::move(picture.layers);
+  drawn.warnings = std::move(picture.warnings);
+  drawn.device = renderer.device().name;
+  return drawn;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,49 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What stands before the camera in a comparison, baked where a contender wants it, and how a contender draws it.
+#pragma once
+
+#include <gloam/spheres.h>
+
+#include "bake_run.h"
+#include "compare_plan.h"
+#include "compare_run.h"
+#include "timings.h"
+
+namespace gloam::cli {
+
+struct CompareStage {
+  Scene scene;                 ///< as it was read: the reference is traced from it
+  std::optional<Scene> baked;  ///< where a contender needs a bake that `scene` does not carry
+  std::optional<double> bake_seconds;
+  std::string bake_note;
+  Environment environment;
+  PosedScene posed;
+  PosedCamera camera;
+  int bounces = 1;    ///< of the reference
+  Coverage in_scene;  ///< the light that there is, at so many bounces
+  const Scene& sceneFor(const Contender& contender) const {
+    return contender.technique->needs_bake && baked ? *baked : scene;
+  }
+};
+
+/// Reads the scene and chooses light, camera and bounces; `reference_bounces` wins where a reference was given. Throws
+/// Error where a contender cannot light the scene; where nobody asked for it by name it drops out. Bakes nothing.
+CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Contender>& contenders,
+                                 std::optional<int> reference_bounces, Console& console);
+/// Bakes where a contender needs it.
+void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
+                      const std::vector<Contender>& contenders, Console& console);
+
+struct Drawn {
+  LayeredImage picture;
+  Timings timings;
+  Warnings warnings;
+  std::string device;
+};
+/// Draws a contender with a renderer of its own (`spheres`: null unless it needs them), so that memory and times do not depend on who was drawn before.
+Drawn drawContender(const CompareStage& stage, const CompareChoice& choice, const Contender& contender,
+                    const SceneSpheres* spheres, bool background, const Progress& progress);
+
+}  // namespace gloam::cli

@@ -1,0 +1,45 @@
+// Head of the page, and its end: what was compared, and the commands that repeat it.
+
+function sentence() {
+  const ranked = results.techniques.map((technique) => ({technique, error: technique.relative_squared_error}))
+    .filter(({error}) => error !== null).sort((a, b) => a.error - b.error);
+  if (ranked.length === 0) return '';
+  const say = ({technique, error}, verb) => `${technique.label}${verb} by ${percent(Math.sqrt(error))} (FLIP ${significant(technique.flip)}, ${milliseconds(technique.device_ms)} a frame)`;
+  const [first, ...rest] = ranked;
+  const last = rest.length ? rest[rest.length - 1] : null;
+  return `${say(first, ' differs from its reference')}${last ? `, ${say(last, '')}` : ''}.`;
+}
+
+function buildHead() {
+  byId('title').textContent = page.title;
+  const facts = [results.scene, results.environment ? `light: ${results.environment}` : 'no light from afar', `${results.size.replace('x', ' × ')} pixels`,
+    `${results.bounces} ${results.bounces === 1 ? 'bounce' : 'bounces'}`, results.device];
+  byId('facts').append(...facts.map((fact) => make('span', {}, fact)));
+  byId('headline').textContent = sentence();
+}
+
+function commandLine(command) {
+  const button = make('button', {type: 'button', 'aria-label': `Copy: ${command}`, onclick: async () => {
+    await navigator.clipboard.writeText(command);
+    button.textContent = 'Copied';
+    setTimeout(() => { button.textContent = 'Copy'; }, 1500);
+  }}, 'Copy');
+  return make('div', {class: 'command'}, make('code', {}, command), navigator.clipboard ? button : null);
+}
+
+function buildAbout() {
+  const reference = results.reference;
+  const about = byId('about');
+  about.append(make('p', {}, 'Each technique is held against a path-traced reference of the same scene, camera, light and materials that holds only the light '
+    + 'which the technique covers. The light behind the scene is left out of pictures and measures.'));
+  const facts = [['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light: less is chance`]] : []),
+    ...(results.environment_order > 0 ? [['light', `the environment’s projection to ${results.environment_order} bands of spherical harmonics`]] : []),
+    ['page', page.shrink > 1 ? `pictures here at 1/${page.shrink} of their size; all measures are of the full size` : 'pictures in full size, linear half floats'],
+    ['gloam', results.version]];
+  about.append(make('dl', {}, facts.flatMap(([term, text]) => [make('dt', {}, term), make('dd', {}, text)])));
+  about.append(make('h3', {}, 'This page'), commandLine(results.command), make('h3', {}, 'Its numbers, one technique a line'),
+    ...results.techniques.map((technique) => commandLine(technique.command)));
+  const notes = results.techniques.flatMap((technique) => technique.notes.map((note) => `${technique.label}: ${note}`));
+  if (notes.length) about.append(make('h3', {}, 'Remarks'), make('ul', {}, notes.map((note) => make('li', {}, note))));
+  byId('footer').textContent = 'Made by gloam compare. This file is complete in itself: it loads nothing and sends nothing. results.json and results.csv beside it hold the same numbers.';
+}

@@ -1,0 +1,255 @@
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""gloam compare: what it measures is what its files hold, and bad input is refused before anything is written."""
+import csv
+import json
+import math
+import os
+import pathlib
+import shlex
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import exr
+from harness import BOX, GLOAM, CliTest
+
+TECHNIQUES = "irradiance,prt,prt:order=2"
+MEASURES = ["rmse", "relative_squared_error", "psnr", "ssim", "flip", "mean_signed_error"]
+VIEW = ["--size", "40x32", "--env", "sky:noon"]
+QUICK = [*VIEW, "--spp", "4", "--frames", "2"]
+
+
+def baked_box(folder, environment):
+    """A box with one bounce, and its name in the folder."""
+    subprocess.run([GLOAM, "bake", BOX, "--order", "3", "--bounces", "1", "--directions", "256", "--bounce-directions", "64",
+                    "-o", "box.glb", "--quiet"], cwd=folder, env=environment, check=True, timeout=120)
+    return "box.glb"
+
+
+class Compared(CliTest):
+    """One comparison that all tests of a class look at."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="gloam-compare-"))
+        cls.addClassCleanup(shutil.rmtree, cls.shared, ignore_errors=True)
+        cls.env = dict(os.environ, XDG_CACHE_HOME=str(cls.shared / "cache"), GLOAM_VALIDATION="1")
+        baked_box(cls.shared, cls.env)
+        cls.arguments = ["compare", "box.glb", "--techniques", TECHNIQUES, *QUICK, "-o", "out"]
+        cls.process = subprocess.run([GLOAM, *cls.arguments, "--json"], cwd=cls.shared, env=cls.env, capture_output=True,
+                                     text=True, timeout=300, check=False)
+        assert cls.process.returncode == 0, cls.process.stderr
+        cls.results = json.loads((cls.shared / "out" / "results.json").read_text(encoding="utf-8"))
+
+    def shared_gloam(self, *arguments):
+        return subprocess.run([GLOAM, *map(str, arguments)], cwd=self.shared, env=self.env, capture_output=True, text=True,
+                              timeout=300, check=False)
+
+
+class Results(Compared):
+    def test_shape_that_programs_read(self):
+        self.assertLessEqual({"scene", "environment", "bounces", "size", "device", "techniques"}, set(self.results))
+        self.assertEqual((self.results["scene"], self.results["size"], self.results["bounces"]), ("box.glb", "40x32", 1))
+        self.assertEqual([technique["name"] for technique in self.results["techniques"]], ["irradiance", "prt", "prt"])
+        for technique in self.results["techniques"]:
+            for layer in technique, technique["direct"], technique["indirect"]:
+                self.assertLessEqual(set(MEASURES), set(layer))
+            self.assertLessEqual({"settings", "device_ms", "passes", "memory_bytes", "bake_seconds"}, set(technique))
+            self.assertGreater(technique["device_ms"], 0)
+            self.assertGreater(technique["memory_bytes"], 0)
+            for entry in technique["passes"]:
+                self.assertEqual(set(entry), {"name", "median_ms", "p95_ms"})
+        self.assertEqual(self.results["techniques"][2]["settings"]["order"], 2)
+        self.assertEqual(json.loads(self.process.stdout), self.results)
+
+    def test_a_measure_that_does_not_apply_is_null(self):
+        irradiance, prt = self.results["techniques"][:2]
+        self.assertNotIn("environment_indirect", irradiance["covers"])
+        self.assertEqual({irradiance["indirect"][name] for name in MEASURES}, {None})
+        self.assertIsNotNone(prt["indirect"]["rmse"])
+        self.assertIsNone(prt["bake_seconds"])
+
+    def test_what_is_left_out_is_what_the_scene_has(self):
+        irradiance, prt = self.results["techniques"][:2]
+        self.assertIn("environment_indirect", irradiance["leaves_out"])
+        self.assertNotIn("environment_indirect", prt["leaves_out"])
+        for technique in irradiance, prt:
+            self.assertFalse(set(technique["covers"]) & set(technique["leaves_out"]))
+
+    def test_the_files(self):
+        names = sorted(path.name for path in (self.shared / "out").iterdir())
+        self.assertEqual(names, ["index.html", "irradiance.exr", "prt.exr", "prt_order=2.exr", "reference.exr",
+                                 "reference_irradiance.exr", "reference_prt.exr", "results.csv", "results.json"])
+
+    def test_measures_follow_from_the_files(self):
+        for technique in self.results["techniques"]:
+            _, _, ours, _ = exr.read(self.shared / "out" / technique["file"])
+            width, height, truth, _ = exr.read(self.shared / "out" / technique["reference_file"])
+            self.assertEqual((width, height), (40, 32))
+            seen = [i for i, alpha in enumerate(truth["A"]) if alpha > 0]
+            self.assertTrue(seen)
+            for prefix, layer in ("", technique), ("direct.", technique["direct"]), ("indirect.", technique["indirect"]):
+                if layer["rmse"] is None:
+                    continue
+                pairs = [(ours[prefix + c][i], truth[prefix + c][i]) for c in "RGB" for i in seen]
+                square = math.fsum((a - b) ** 2 for a, b in pairs)
+                self.assertAlmostEqual(layer["rmse"], math.sqrt(square / len(pairs)), delta=1e-9)
+                self.assertAlmostEqual(layer["relative_squared_error"], square / math.fsum(b * b for _, b in pairs), delta=1e-9)
+                self.assertAlmostEqual(layer["mean_signed_error"], math.fsum(a - b for a, b in pairs) / len(pairs), delta=1e-9)
+
+    def test_the_reference_of_a_part_is_that_part(self):
+        _, _, parts, _ = exr.read(self.shared / "out" / "reference.exr")
+        _, _, direct, _ = exr.read(self.shared / "out" / "reference_irradiance.exr")
+        covered = [name for name in self.results["techniques"][0]["covers"] if name.endswith("_direct")]
+        self.assertTrue(covered)
+        for i in range(0, 40 * 32, 37):
+            wanted = sum(parts[f"{name}.R"][i] for name in [*covered, "seen"])
+            self.assertAlmostEqual(direct["R"][i], wanted, delta=1e-3 * abs(wanted) + 1e-6)
+            self.assertEqual(direct["indirect.R"][i], 0)
+
+    def test_every_number_is_what_diff_says(self):
+        for technique in self.results["techniques"]:
+            command = shlex.split(technique["command"])
+            self.assertEqual(command[:2], ["gloam", "diff"])
+            for more, layer in ([], technique), (["--layer", "direct"], technique["direct"]), (["--layer", "indirect"], technique["indirect"]):
+                if layer["rmse"] is None:
+                    continue
+                answer = self.shared_gloam(*command[1:], *more, "--json")
+                self.assertEqual(answer.returncode, 0, answer.stderr)
+                said = json.loads(answer.stdout)
+                for name in MEASURES:
+                    self.assertEqual(said[name], layer[name], f"{technique['label']} {more} {name}")
+
+    def test_csv_holds_the_same(self):
+        with open(self.shared / "out" / "results.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["layer"] for row in rows], ["sum", "direct", "indirect"] * 3)
+        for i, technique in enumerate(self.results["techniques"]):
+            for row, layer in zip(rows[3 * i:3 * i + 3], (technique, technique["direct"], technique["indirect"])):
+                for name in MEASURES:
+                    self.assertEqual(float(row[name]) if row[name] else None, layer[name])
+                self.assertEqual(float(row["device_ms"]), technique["device_ms"])
+
+    def test_the_same_command_takes_the_reference_up_again(self):
+        reference = self.shared / "out" / "reference.exr"
+        before = reference.stat().st_mtime_ns
+        again = self.shared_gloam(*self.arguments)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn("taken from", again.stderr)
+        self.assertEqual(reference.stat().st_mtime_ns, before)
+
+    def test_a_given_reference(self):
+        answer = self.shared_gloam("compare", "box.glb", "--techniques", "prt", "--env", "sky:noon", "--frames", "1", "--reference",
+                                   "out/reference.exr", "-o", "given", "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        given = json.loads(answer.stdout)
+        self.assertEqual(given["size"], "40x32")
+        for name in MEASURES:
+            self.assertEqual(given["techniques"][0][name], self.results["techniques"][1][name])
+        self.assertFalse((self.shared / "given" / "reference.exr").exists())
+
+
+class Interrupted(CliTest):
+    def test_what_is_finished_stays(self):
+        process = subprocess.Popen([GLOAM, "compare", BOX, "--techniques", "irradiance", *VIEW, "--frames", "1", "--spp", "1000000", "-o", "out"],
+                                   cwd=self.folder, env=self.environment, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while not self.path("out/irradiance.exr").exists():
+            self.assertLess(time.monotonic(), deadline)
+            self.assertIsNone(process.poll())
+            time.sleep(0.02)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, err)
+        self.assertIn("interrupted", err)
+        self.assertIn("reference.checkpoint", err)
+        self.assertTrue(self.path("out/reference.checkpoint").exists())
+        self.assertFalse(self.path("out/index.html").exists())
+        self.succeed("compare", BOX, "--techniques", "irradiance", *VIEW, "--frames", "1", "--spp", "2", "-o", "out")
+        self.assertFalse(self.path("out/reference.checkpoint").exists())
+        self.assertTrue(self.path("out/index.html").exists())
+
+
+class Refused(CliTest):
+    def refused(self, *arguments, says):
+        return self.refuse("compare", BOX, *QUICK, *arguments, "-o", "out", says=says)
+
+    def test_techniques(self):
+        self.refused("--techniques", "irradiance,radiosity", says=["--techniques", "radiosity", "irradiance"])
+        self.refused("--techniques", "", says=["--techniques", "empty"])
+        self.refused("--techniques", "prt,", says=["--techniques", "expected", "prt"])
+        self.refused("--techniques", "prt:order", says=["--techniques", "order", "OPTION=VALUE"])
+        self.refused("--techniques", "prt:orde=3", says=["prt:orde=3", "orde"])
+        self.refused("--techniques", "prt:order=30", says=["prt:order=30", "30"])
+        self.refused("--techniques", "prt,irradiance,prt:order=0", says=["prt order=0", "same"])
+
+    def test_a_technique_that_cannot_light_this_scene(self):
+        self.refuse("compare", "builtin:furnace?detail=0.25", "--env", "none", "--techniques", "irradiance", "-o", "out",
+                    says=["irradiance", "cannot light", "no light"])
+
+    def test_numbers(self):
+        self.refused("--spp", "0", says=["--spp", "0"])
+        self.refused("--bounces", "-1", says="--bounces")
+        self.refused("--sh-order", "7", says="--sh-order")
+        self.refused("--noise", "nan", says="--noise")
+        self.refused("--frames", "0", says="--frames")
+
+    def test_where_to(self):
+        self.path("out").write_text("a file")
+        self.refused("--techniques", "irradiance", says=["out", "file"])
+        self.refuse("compare", BOX, *QUICK, "--techniques", "irradiance", "-o", "no/such/folder", says="no/such/folder")
+
+
+class References(CliTest):
+    LIGHT = {"gloam.kind": "reference", "gloam.light": "environment_direct environment_indirect", "gloam.bounces": "1"}
+
+    def reference(self, attributes=None, **changed):
+        channels = {f"{prefix}{c}": 0.5 for prefix in ("", "direct.", "indirect.") for c in "RGB"} | {"A": 1.0}
+        for name in changed.pop("without", []):
+            del channels[name]
+        exr.write(self.path("truth.exr"), 8, 6, channels | {name.replace("_", "."): value for name, value in changed.items()},
+                  self.LIGHT if attributes is None else attributes)
+
+    def refused(self, *more, says):
+        self.refuse("compare", BOX, "--env", "sky:noon", "--techniques", "irradiance", "--frames", "1", "--reference", "truth.exr", *more,
+                    "-o", "out", says=says)
+
+    def test_not_there_or_no_picture(self):
+        self.refused(says="truth.exr")
+        self.path("truth.exr").write_text("no picture")
+        self.refused(says="truth.exr")
+
+    def test_that_does_not_say_what_it_holds(self):
+        self.reference(attributes={})
+        self.refused(says=["truth.exr", "gloam reference"])
+
+    def test_of_another_size(self):
+        self.reference()
+        self.refused("--size", "9x6", says=["--size", "9x6", "8x6", "truth.exr"])
+        self.refused("--bounces", "3", says=["--bounces", "truth.exr"])
+
+    def test_with_values_that_are_no_numbers(self):
+        values = [0.5] * 48
+        values[8 * 2 + 3] = math.nan
+        self.reference(direct_G=values)
+        self.refused(says=["truth.exr", "direct.G", "not a number", "3, 2"])
+        values[8 * 2 + 3] = math.inf
+        self.reference(R=values)
+        self.refused(says=["truth.exr", "channel R", "infinite"])
+
+    def test_without_a_layer(self):
+        self.reference(without=["direct.R", "direct.G", "direct.B"])
+        self.refused(says=["truth.exr", "direct"])
+
+    def test_without_the_light_that_is_covered(self):
+        self.reference(attributes=self.LIGHT | {"gloam.light": "local_direct"})
+        self.refused(says=["truth.exr", "environment_direct"])
+
+
+if __name__ == "__main__":
+    unittest.main()
