@@ -17,6 +17,8 @@
 
 namespace gloam {
 
+struct SceneSpheres;
+
 // ---- Options --------------------------------------------------------------------------------------------------------
 
 using OptionValue = std::variant<bool, int, float, std::string>;
@@ -55,7 +57,8 @@ struct TechniqueInfo {
   const char* summary;  ///< one line
   Coverage covers;
   std::span<const Option> options;
-  bool needs_bake = false;  ///< renders only scenes whose meshes carry Transfer
+  bool needs_bake = false;     ///< renders only scenes whose meshes carry Transfer
+  bool needs_spheres = false;  ///< renders only with Renderer::setSpheres; its option "spheres" says how many
 };
 /// The one table of techniques.
 std::span<const TechniqueInfo> techniques();
@@ -126,6 +129,9 @@ class Renderer {
   /// Uploads the scene and its own environment; the renderer keeps its own copy of what it needs. Throws Error where the
   /// device has no room for it.
   void setScene(const Scene& scene);
+  /// Sphere sets (gloam/spheres.h) of the scene that was set, for techniques that need them; setScene() forgets them.
+  /// Throws Error where no scene was set or the sets belong to another.
+  void setSpheres(const Scene& scene, const SceneSpheres& spheres);
   /// Distant light in place of the scene's own. An empty environment means no light from afar.
   void setEnvironment(const Environment& environment);
 

@@ -19,6 +19,7 @@ struct FrameOptions {
   bool background = true;
   bool layers = true;  ///< normal, depth, albedo, object besides the light
   bool motion = false;
+  std::span<const Proxy> proxies = {};  ///< for techniques that take spheres in place of what moves
 };
 
 /// What one frame leaves to the next.

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "frame/environment_light.h"
 #include "frame/gbuffer.h"
+#include "frame/proxy.h"
 #include "frame/receivers.h"
 #include "frame/shadow_maps.h"
 
@@ -22,6 +24,7 @@ struct FrameInputs {
   const EnvironmentLight& environment;
   gpu::BufferRef view;  ///< FrameView
   Warnings& warnings;   ///< one-line remarks for whoever renders
+  std::span<const Proxy> proxies = {};  ///< spheres in place of what moves; empty unless someone made them
 };
 
 /// First surface lit by a source, or by other surfaces.
@@ -32,6 +35,7 @@ struct Irradiance {
   gpu::ImageRef image;  ///< RGB, floats or halves, of the size of receivers.at(divisor)
   Path path = Path::kDirect;
   int divisor = 1;  ///< below full size it is upsampled along surfaces (PX-8)
+  bool along_surfaces = true;  ///< false: plainly bilinear
 };
 
 /// RGB radiance that each pixel's Phong lobe gathers, of integral 1, at the pixel's exponent and about the mirror

@@ -10,7 +10,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
+#include "frame/upsample.glsl"
 #include "frame/view.glsl"
+
+layout(constant_id = 0) const bool along_surfaces = true;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -21,16 +24,10 @@ layout(set = 0, binding = 4) uniform sampler2D coarse;
 layout(set = 0, binding = 5) uniform writeonly image2D full;
 layout(scalar, push_constant) uniform Push { uint divisor; } push;
 
-/// Relative to the pixel's own depth: differences below it count alike.
-const float kDepthTolerance = 2e-3;
-const float kPoorFit = 0.05;
-
 /// How well a coarse sample stands for the pixel, 0 to 1.
 float fitness(ivec2 place, vec3 normal, float along) {
-  vec4 sample_ = texelFetch(receiver_normal, place, 0);
-  if (sample_.w <= 0.0) return 0.0;
-  float epsilon = kDepthTolerance * along;
-  return pow(max(0.0, dot(normal, sample_.xyz)), 32.0) * epsilon / (epsilon + abs(along - sample_.w));
+  if (!along_surfaces) return 1.0;
+  return receiverFitness(texelFetch(receiver_normal, place, 0), normal, along);
 }
 
 void main() {
@@ -44,8 +41,7 @@ void main() {
   float along = eyeDepth(frame_view.view, d);
   vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
   ivec2 last = textureSize(coarse, 0) - 1;
-  // Coarse samples stand at the middle pixel of their block (frame_receivers).
-  vec2 at = (vec2(pixel) - float(push.divisor / 2u)) / float(push.divisor);
+  vec2 at = receiverPlace(pixel, push.divisor);
   ivec2 base = ivec2(floor(at));
   vec2 f = at - vec2(base);
   vec4 sum = vec4(0.0);
@@ -54,7 +50,7 @@ void main() {
     ivec2 corner = ivec2(i & 1, i >> 1);
     ivec2 place = clamp(base + corner, ivec2(0), last);
     vec2 bilinear = mix(1.0 - f, f, vec2(corner));
-    float weight = max(bilinear.x * bilinear.y, 1e-3) * fitness(place, normal, along);
+    float weight = max(bilinear.x * bilinear.y, kLeastBilinear) * fitness(place, normal, along);
     sum += weight * texelFetch(coarse, place, 0);
     total += weight;
   }

@@ -31,6 +31,7 @@ gpu::ImageRef upsample(gpu::FrameGraph& graph, const FrameInputs& inputs, const 
   const ReceiverLevel& coarse = inputs.receivers.at(term.divisor);
   const auto full = imageLike(graph, name, inputs.gbuffer);
   graph.compute("frame.upsample", frame_upsample_spv)
+      .specialize("along_surfaces", term.along_surfaces)
       .read("frame_view", inputs.view)
       .read("depth", inputs.gbuffer.depth)
       .read("normals", inputs.gbuffer.normals)

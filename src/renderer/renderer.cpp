@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "frame/frame.h"
+#include "renderer/proxy_set.h"
 #include "renderer/read_back.h"
 #include "techniques/technique.h"
 
@@ -26,6 +27,7 @@ struct Renderer::Impl {
   gpu::FrameGraph graph;
   frame::EnvironmentLight environment;
   std::optional<frame::GpuScene> scene;
+  std::optional<ProxySet> proxies;
   std::map<std::string, std::unique_ptr<Technique>> techniques;
   frame::FrameMemory memory;
 };
@@ -102,9 +104,15 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::setScene(const Scene& scene) {
   impl_->scene.reset();  // frees the old one's memory first
+  impl_->proxies.reset();
   impl_->scene.emplace(*impl_->device, scene);
   impl_->memory = {};
   setEnvironment(scene.environment);
+}
+
+void Renderer::setSpheres(const Scene& scene, const SceneSpheres& spheres) {
+  if (!impl_->scene) throw Error("renderer", "no scene was set");
+  impl_->proxies.emplace(scene, spheres);
 }
 
 void Renderer::setEnvironment(const Environment& environment) {
@@ -115,10 +123,16 @@ RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camer
                                const RenderOptions& options) {
   const TechniqueInfo& info = gloam::technique(options.technique);
   const Settings settings = settingsFor(info, options.settings);
-  const frame::FrameOptions frame_options = frameOptions(options);
+  frame::FrameOptions frame_options = frameOptions(options);
   impl_->checkSize(frame_options);
   if (!impl_->scene) throw Error("renderer", "no scene was set");
   Technique& technique = impl_->techniqueFor(info.name);
+  std::vector<frame::Proxy> proxies;
+  if (info.needs_spheres) {
+    if (!impl_->proxies) throw Error("renderer", fmt::format("{}: no sphere sets were set", info.name));
+    proxies = impl_->proxies->posed(posed);
+    frame_options.proxies = proxies;
+  }
   gpu::FrameGraph& graph = impl_->graph;
 
   RenderedFrame result;

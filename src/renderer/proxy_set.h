@@ -1,0 +1,30 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sphere sets as a frame takes them: where they are now and what colour they send back (PX-9).
+#pragma once
+
+#include <gloam/spheres.h>
+
+#include "frame/proxy.h"
+
+namespace gloam {
+
+class ProxySet {
+ public:
+  /// Keeps what posing needs, not the scene. Throws Error where the sets belong to another scene.
+  ProxySet(const Scene& scene, const SceneSpheres& spheres);
+  /// In the order of poseSpheres. Throws Error where the pose does not fit.
+  std::vector<frame::Proxy> posed(const PosedScene& posed) const;
+
+ private:
+  SceneSpheres spheres_;
+  Scene scene_;                                  // nodes, and places of the vertices that spheres follow
+  std::vector<std::vector<glm::vec3>> albedos_;  // [set][sphere]
+};
+
+/// Mean diffuse albedo of the surface near each sphere of a set (nearest by |p - c| / r), textures and vertex colours
+/// included; 0 to 1, linear.
+std::vector<glm::vec3> sphereAlbedos(const Scene& scene, const SphereSet& set);
+
+}  // namespace gloam

@@ -1,0 +1,286 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sloan, Govindaraju, Nowrouzezahrai, Snyder 2007, "Image-based proxy accumulation for real-time soft global illumination",
+// Figure 2: the pipeline. Differs from the paper: proxies are gathered by lists of tiles in compute instead of splatted, and
+// receivers within proxies follow the rule of spheres/receiver_rule.h.
+#include "techniques/proxies/proxies.h"
+
+#include <cstring>
+
+#include "math/sh_log_exp.h"
+#include "shaders/proxies_shaders.h"
+#include "techniques/proxies/proxies_tables.h"
+
+namespace gloam::proxies {
+
+namespace {
+
+frame::Window windowOf(const std::string& name) {
+  if (name == "hann") return frame::Window::kHann;
+  if (name == "lanczos") return frame::Window::kLanczos;
+  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
+}
+
+int indirectKind(const std::string& name) {
+  if (name == "point") return kIndirectPoint;
+  if (name == "averaged") return kIndirectAveraged;
+  return name == "exact" ? kIndirectExact : kIndirectOff;
+}
+
+int exponentialKind(const std::string& name) {
+  if (name == "ps") return kExpSeries;
+  if (name == "ol") return kExpLinear;
+  return name == "hyb" ? kExpHybrid : kExpQuadratic;
+}
+
+const std::vector<Option>& options() {
+  static const std::vector<Option> options = {
+      {.name = "spheres",
+       .default_value = 26,
+       .minimum = 1,
+       .maximum = 4096,
+       .help = "spheres that stand for all that casts, when they are made for this picture"},
+      {.name = "divisor",
+       .default_value = std::string("4"),
+       .choices = {"1", "2", "4", "8"},
+       .help = "light is computed for one receiver in a square of that many pixels a side"},
+      {.name = "upsample",
+       .default_value = std::string("normal"),
+       .choices = {"normal", "field", "shaded", "bilinear"},
+       .help = "what is brought to every pixel: shaded light with its change by the normal, or visibility, "
+               "along surfaces, pixels without a fitting receiver computed from scratch; or shaded light "
+               "along surfaces, or plainly"},
+      {.name = "indirect",
+       .default_value = std::string("averaged"),
+       .choices = {"averaged", "point", "exact", "off"},
+       .help =
+           "light that proxies send back: averaged over their disc, sampled at one point, exact, or none"},
+      {.name = "exponential",
+       .default_value = std::string("quadratic"),
+       .choices = {"quadratic", "hyb", "ol", "ps"},
+       .help = "of the sum of logs: scaling and squaring with a quadratic or linear core, linear, or series"},
+      {.name = "coverage",
+       .default_value = std::string("fixed"),
+       .choices = {"fixed", "light", "all"},
+       .help =
+           "how far a proxy counts: 15 (shadow) and 10 (indirect) radii, as far as this light asks for, or "
+           "everywhere"},
+      {.name = "normalise",
+       .default_value = true,
+       .help = "scale light of proxies that overlap by the solid angle that they fill together"},
+      {.name = "window",
+       .default_value = std::string("auto"),
+       .choices = {"none", "hann", "lanczos", "auto"},
+       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"}};
+  return options;
+}
+
+std::vector<ProxyRow> rowsOf(std::span<const frame::Proxy> proxies) {
+  std::vector<ProxyRow> rows;
+  for (const frame::Proxy& proxy : proxies) rows.push_back({proxy.center, proxy.radius, proxy.albedo, 0.0f});
+  if (rows.empty()) rows.push_back({});
+  return rows;
+}
+
+/// Of each tile, a bit for every proxy that reaches it: "proxies.bounds", "proxies.tiles".
+gpu::BufferRef recordTiles(gpu::FrameGraph& graph, const frame::ReceiverLevel& level, gpu::BufferRef proxies,
+                           std::uint32_t proxy_count, std::uint32_t words, float least_sine) {
+  const int side = int(kTileSize);
+  const int columns = (level.width + side - 1) / side, rows = (level.height + side - 1) / side;
+  const auto tiles = std::uint32_t(columns * rows);
+  const auto bounds = graph.create("proxies.bounds", gpu::BufferDesc{.bytes = tiles * sizeof(TileBounds)});
+  graph.compute("proxies.bounds", proxies_bounds_spv)
+      .read("receiver_position", level.position)
+      .write("bounds", bounds)
+      .dispatchOver(columns, rows);
+  const auto bits = graph.create(
+      "proxies.bits", gpu::BufferDesc{.bytes = std::size_t(tiles) * words * sizeof(std::uint32_t)});
+  graph.compute("proxies.tiles", proxies_tiles_spv)
+      .read("bounds", bounds)
+      .read("proxies", proxies)
+      .write("bits", bits)
+      .push(TileParams{tiles, proxy_count, least_sine})
+      .dispatch((tiles + 63) / 64, words);
+  return bits;
+}
+
+/// What of the frame is the same for every pass.
+struct Step {
+  gpu::FrameGraph& graph;
+  const frame::FrameInputs& inputs;
+  const frame::ReceiverLevel& level;
+  gpu::BufferRef proxies, light, log_table, alone_table, operator_table;
+  std::uint32_t proxy_count;
+  AccumulateParams params;
+  int indirect, exponential;
+  bool normalise, whole_field;
+
+  gpu::ImageRef image(const char* name, VkFormat format, int layers = 1) const {
+    return graph.create(name,
+                        {.format = format, .width = level.width, .height = level.height, .layers = layers});
+  }
+};
+
+constexpr std::uint32_t kMostGroups = 65535;  // of a dispatch, on any device
+constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT, kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+/// What receivers get, and the field O_p.
+struct Received {
+  gpu::ImageRef field, planes, direct, indirect;
+};
+
+Received recordReceivers(const Step& step, gpu::BufferRef bits) {
+  const auto log_visibility = step.image("proxies.log_visibility_packed", kFloats, 4);
+  const auto sent = step.image("proxies.indirect_sum", kFloats);
+  step.graph.compute("proxies.accumulate", proxies_accumulate_spv)
+      .specialize("indirect_kind", step.indirect)
+      .specialize("exponential", step.exponential)
+      .read("receiver_position", step.level.position)
+      .read("receiver_normal", step.level.normal_depth)
+      .read("proxies", step.proxies)
+      .read("bits", bits)
+      .read("log_table", step.log_table)
+      .read("alone_table", step.alone_table)
+      .read("operator_table", step.operator_table)
+      .read("light", step.light)
+      .write("log_visibility", log_visibility)
+      .write("indirect", sent)
+      .push(step.params)
+      .dispatchOver(sent);
+  const Received received{step.image("proxies.visibility_packed", kHalves, 4),
+                          step.image("proxies.planes_packed", kHalves, 3),
+                          step.image("proxies.direct", kHalves), step.image("proxies.indirect", kHalves)};
+  step.graph.compute("proxies.shade", proxies_shade_spv)
+      .specialize("exponential", step.exponential)
+      .specialize("normalise", step.normalise)
+      .specialize("has_indirect", step.indirect != kIndirectOff)
+      .read("receiver_normal", step.level.normal_depth)
+      .read("log_visibility", log_visibility)
+      .read("indirect_sum", sent)
+      .read("light", step.light)
+      .write("field", received.field)
+      .write("planes", received.planes)
+      .write("direct", received.direct)
+      .write("indirect", received.indirect)
+      .write("optical_depth", step.image("proxies.log_visibility", VK_FORMAT_R32_SFLOAT))
+      .write("visibility", step.image("proxies.visibility", VK_FORMAT_R32_SFLOAT))
+      .write("normalisation", step.image("proxies.normalisation", VK_FORMAT_R32_SFLOAT))
+      .dispatchOver(received.direct);
+  return received;
+}
+
+/// Receivers' fields brought to all pixels: "proxies.upsample", and pixels that none fits from scratch: "proxies.repair".
+Received recordUpsampling(const Step& step, const Received& coarse) {
+  const frame::GBuffer& gbuffer = step.inputs.gbuffer;
+  const auto full = [&](const char* name) {
+    return step.graph.create(
+        name, gpu::ImageDesc{.format = kHalves, .width = gbuffer.width, .height = gbuffer.height});
+  };
+  const Received received{{}, {}, full("proxies.direct_full"), full("proxies.indirect_full")};
+  const std::uint32_t capacity = std::min(
+      std::uint32_t(gbuffer.width) * std::uint32_t(gbuffer.height) / 2 + 1, kRepairGroup * kMostGroups);
+  const auto repairs = step.graph.create(
+      "proxies.repairs", gpu::BufferDesc{.bytes = sizeof(RepairList) + 4 * std::size_t(capacity)});
+  step.graph.clear("proxies.repairs", gpu::BufferRef(repairs).slice(0, sizeof(RepairList)), 1);
+  step.graph.compute("proxies.upsample", proxies_upsample_spv)
+      .specialize("whole_field", step.whole_field)
+      .read("frame_view", step.inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("normals", gbuffer.normals)
+      .read("receiver_normal", step.level.normal_depth)
+      .read("field", step.whole_field ? coarse.field : coarse.planes)
+      .read("indirect", coarse.indirect)
+      .read("light", step.light)
+      .readWrite("repairs", repairs)
+      .write("direct_full", received.direct)
+      .write("indirect_full", received.indirect)
+      .push(UpsampleParams{std::uint32_t(step.level.divisor), capacity})
+      .dispatchOver(received.direct);
+  step.graph.compute("proxies.repair", proxies_repair_spv)
+      .specialize("indirect_kind", step.indirect)
+      .specialize("exponential", step.exponential)
+      .specialize("normalise", step.normalise)
+      .read("frame_view", step.inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("normals", gbuffer.normals)
+      .read("repairs", repairs)
+      .read("proxies", step.proxies)
+      .read("log_table", step.log_table)
+      .read("alone_table", step.alone_table)
+      .read("operator_table", step.operator_table)
+      .read("light", step.light)
+      .write("direct_full", received.direct)
+      .write("indirect_full", received.indirect)
+      .push(RepairParams{step.params, step.proxy_count, capacity})
+      .dispatchIndirect(repairs);
+  return received;
+}
+
+}  // namespace
+
+const TechniqueInfo& info() {
+  static const TechniqueInfo info = {
+      .name = "proxies",
+      .summary = "soft shadows and colour from moving things, by spheres in their place",
+      .covers = {.environment_direct = true, .environment_indirect = true, .local_direct = true},
+      .options = options(),
+      .needs_spheres = true};
+  return info;
+}
+
+Proxies::Proxies(gpu::Device& device)
+    : log_table_(device, "proxies.log_table", logVisibilityTable()),
+      alone_table_(device, "proxies.alone_table", blockedAloneTable()),
+      operator_table_(device, "proxies.operator_table", exactOperatorTable()) {}
+
+const Reach& Proxies::reachFor(const ProxyLight& light) {
+  if (light_ && std::memcmp(&*light_, &light, sizeof light) == 0) return reach_;
+  reach_ = reachOf(light);
+  light_ = light;
+  return reach_;
+}
+
+frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                const Settings& settings) {
+  if (inputs.environment.empty()) return {};
+  const ProxyLight light =
+      proxyLight(frame::windowed(inputs.environment.sh(), kShadowOrder, windowOf(settings.choice("window"))));
+  const std::string upsample = settings.choice("upsample");
+  const std::string coverage = settings.choice("coverage");
+  const Reach reach = coverage == "light" ? reachFor(light) : kFixedReach;
+  const Fade shadow = coverage == "all" ? Fade{} : fadeOf(reach.shadow);
+  const Fade indirect = coverage == "all" ? Fade{} : fadeOf(reach.indirect);
+  const auto proxy_count = std::uint32_t(inputs.proxies.size());
+  const std::uint32_t words = std::max(1u, (proxy_count + 31) / 32);
+  const Step step{.graph = graph,
+                  .inputs = inputs,
+                  .level = inputs.receivers.at(std::stoi(settings.choice("divisor"))),
+                  .proxies = graph.upload("proxies.proxies", rowsOf(inputs.proxies)),
+                  .light = graph.uploadOne("proxies.light", light),
+                  .log_table = log_table_,
+                  .alone_table = alone_table_,
+                  .operator_table = operator_table_,
+                  .proxy_count = proxy_count,
+                  .params = {words, shadow.from, shadow.to, indirect.from, indirect.to},
+                  .indirect = indirectKind(settings.choice("indirect")),
+                  .exponential = exponentialKind(settings.choice("exponential")),
+                  .normalise = settings.flag("normalise"),
+                  .whole_field = upsample == "field"};
+  const gpu::BufferRef bits = recordTiles(graph, step.level, step.proxies, proxy_count, words,
+                                          sh::logBlockerAlpha(std::min(shadow.from, indirect.from)));
+  Received received = recordReceivers(step, bits);
+  int divisor = step.level.divisor;
+  if ((upsample == "field" || upsample == "normal") && divisor > 1) {
+    received = recordUpsampling(step, received);
+    divisor = 1;
+  }
+  const bool along = upsample != "bilinear";
+  frame::Lighting lighting;
+  lighting.irradiance.push_back({received.direct, frame::Path::kDirect, divisor, along});
+  if (step.indirect != kIndirectOff)
+    lighting.irradiance.push_back({received.indirect, frame::Path::kIndirect, divisor, along});
+  return lighting;
+}
+
+}  // namespace gloam::proxies

@@ -1,0 +1,93 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_PROXIES_SHARED_H
+#define GLOAM_PROXIES_SHARED_H
+#include "gpu/shared_types.h"
+GLOAM_SHARED_BEGIN(proxies)
+
+/// Receivers of a square of that many a side share a list of proxies.
+GLOAM_SHARED_CONST uint kTileSize = 8u;
+
+/// Entries of the tables over the sine of a proxy's half-angle, at equal steps of shLogBlockerCoordinate.
+GLOAM_SHARED_CONST int kLogEntries = 256;
+GLOAM_SHARED_CONST int kOperatorEntries = 64;
+
+GLOAM_SHARED_CONST int kIndirectOff = 0;
+GLOAM_SHARED_CONST int kIndirectPoint = 1;
+GLOAM_SHARED_CONST int kIndirectAveraged = 2;
+GLOAM_SHARED_CONST int kIndirectExact = 3;
+
+GLOAM_SHARED_CONST int kExpSeries = 0;
+GLOAM_SHARED_CONST int kExpLinear = 1;
+GLOAM_SHARED_CONST int kExpHybrid = 2;
+GLOAM_SHARED_CONST int kExpQuadratic = 3;
+GLOAM_SHARED_CONST int kExpTerms = 9;  // of the series
+
+struct ProxyRow {
+  vec3 center;
+  float radius;
+  vec3 albedo;
+  float unused;
+};
+GLOAM_SHARED_SIZE(ProxyRow, 32)
+
+/// The box round a tile's receivers; low > high where it has none.
+struct TileBounds {
+  vec3 low;
+  vec3 high;
+};
+GLOAM_SHARED_SIZE(TileBounds, 24)
+
+struct TileParams {
+  uint tiles;
+  uint proxies;
+  float least_sine;  // of half-angles that count anywhere
+};
+GLOAM_SHARED_SIZE(TileParams, 12)
+
+/// Where contributions fade out, in steps of shLogBlockerCoordinate.
+struct AccumulateParams {
+  uint words;  // of a tile's bits: which proxies reach it
+  float shadow_from;
+  float shadow_to;
+  float indirect_from;
+  float indirect_to;
+};
+GLOAM_SHARED_SIZE(AccumulateParams, 20)
+
+struct UpsampleParams {
+  uint divisor;
+  uint capacity;  // of the list
+};
+GLOAM_SHARED_SIZE(UpsampleParams, 8)
+
+struct RepairParams {
+  AccumulateParams params;
+  uint proxy_count;
+  uint capacity;
+};
+GLOAM_SHARED_SIZE(RepairParams, 28)
+
+/// Pixels that a work group computes from scratch, and the head of their list: arguments of the dispatch, then how many there
+/// are plus one (all four begin as 1).
+GLOAM_SHARED_CONST uint kRepairGroup = 64u;
+struct RepairList {
+  uint groups_x;
+  uint groups_y;
+  uint groups_z;
+  uint count_and_one;
+};
+GLOAM_SHARED_SIZE(RepairList, 16)
+
+struct ProxyLight {
+  /// Radiance that leaves an unshadowed white diffuse sphere at a surface normal: light * cosine / pi.
+  vec3 leaving[9];
+  /// Its second band as a tensor: xx, yy, zz, xy, yz, xz.
+  vec3 tensor[6];
+  /// Q[9 i + j]: irradiance of a receiver = sum of O_i Q_ij y_j(N).
+  vec3 shade[144];
+};
+GLOAM_SHARED_SIZE(ProxyLight, 1908)
+
+GLOAM_SHARED_END
+#endif

@@ -1,0 +1,273 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "techniques/proxies/proxies.h"
+
+#include "frame/test_frame.h"
+#include "math/sampling.h"
+#include "math/sh_log_exp.h"
+#include "scene/environment.h"
+#include "spheres/receiver_rule.h"
+#include "techniques/proxies/proxies_tables.h"
+
+namespace gloam::proxies {
+namespace {
+
+constexpr int kSize = 64;
+constexpr float kPi = 3.14159265f;
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+/// Images of one frame at full size, four floats a pixel (one for the last two).
+struct Picture {
+  std::vector<float> position, normal, direct, indirect, visibility, normalisation;
+  std::size_t pixels() const { return position.size() / 4; }
+  bool covered(std::size_t i) const { return position[4 * i + 3] > 0.0f; }
+  glm::vec3 at(const std::vector<float>& image, std::size_t i) const {
+    return {image[4 * i], image[4 * i + 1], image[4 * i + 2]};
+  }
+};
+
+Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<frame::Proxy>& proxies,
+             const Values& values = {}) {
+  frame::TestFrame frame(scene);
+  Proxies technique(gpu::testDevice());
+  Settings settings(info().options);
+  settings.set("divisor", "1");
+  settings.set("window", "none");
+  for (const auto& [name, value] : values) settings.set(name, value);
+  frame.draw(pose(scene, 0.0f), camera, {.width = kSize, .height = kSize, .proxies = proxies},
+             [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+               return technique.record(graph, inputs, settings);
+             });
+  return {frame.floats("frame.receiver_position_1"),
+          frame.floats("frame.receiver_normal_1"),
+          frame.floats("proxies.direct"),
+          frame.floats("proxies.indirect"),
+          frame.floats("proxies.visibility"),
+          frame.floats("proxies.normalisation")};
+}
+
+Scene planeScene(const char* sky) {
+  SceneBuilder builder("plane");
+  builder.place("ground", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)));
+  builder.sky(sky);
+  return builder.finish();
+}
+
+const PosedCamera kAbove = frame::cameraAt({0, 9, 0.01f}, {0, 0, 0}, 40);
+
+/// What the receiver gets by sums written out: the slow twin of the whole pipeline for one sphere, its blocker as the
+/// projection itself, no logarithm.
+glm::vec3 irradianceBehindOne(const sh::ShRgb& light, const glm::vec3& p, const glm::vec3& n,
+                              const frame::Proxy& proxy) {
+  const spheres::SeenSphere seen = spheres::seenSphere(p, n, proxy.center, proxy.radius);
+  sh::Zh blocked = sh::discZonal(4, std::asin(seen.sin_half_angle));
+  sh::Sh open = sh::rotateZonal(blocked, seen.direction);
+  for (int i = 0; i < 16; ++i) open[i] = -open[i];
+  open[0] += std::sqrt(4.0f * kPi);
+  const ProxyLight row = proxyLight(light);
+  const sh::Sh y = sh::evaluate(3, n);
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < 16; ++i) {
+    for (int j = 0; j < 9; ++j) sum += open[i] * row.shade[9 * i + j] * y[j];
+  }
+  return sum;
+}
+
+TEST(Proxies, OneSphereOverAPlaneIsTheProjectionOfItsShadow) {
+  const Scene scene = planeScene("preetham?elevation=40");
+  const frame::Proxy sphere{{0.3f, 1.2f, -0.2f}, 0.7f, glm::vec3(0.5f)};
+  const Picture picture = draw(scene, kAbove, {sphere}, {{"coverage", "all"}});
+  const sh::ShRgb light = sh::truncated(projectEnvironment(scene.environment, 6), 4);
+  const glm::vec3 open = sh::irradiance(light, {0, 1, 0});
+  double wrong = 0.0, all = 0.0;
+  float least = 1e9f;
+  for (std::size_t i = 0; i < picture.pixels(); ++i) {
+    const glm::vec3 got = picture.at(picture.direct, i);
+    const glm::vec3 want =
+        irradianceBehindOne(light, picture.at(picture.position, i), picture.at(picture.normal, i), sphere);
+    wrong += double(glm::dot(got - want, got - want)), all += double(glm::dot(want, want));
+    least = std::min(least, got.x / open.x);
+  }
+  EXPECT_LT(std::sqrt(wrong / all), 0.02);
+  EXPECT_LT(least, 0.7f);  // there is a shadow
+}
+
+// Under a white sky a white sphere sends to each receiver what it takes.
+TEST(Proxies, OneWhiteSphereInTheWhiteFurnaceIsNotSeen) {
+  Scene scene = planeScene("uniform");
+  const Picture empty = draw(scene, kAbove, {});
+  const frame::Proxy sphere{{0.0f, 1.5f, 0.0f}, 0.8f, glm::vec3(1.0f)};
+  for (const char* kind : {"averaged", "point", "exact"}) {
+    const Picture picture = draw(scene, kAbove, {sphere}, {{"indirect", kind}, {"coverage", "all"}});
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+      const float sum = picture.direct[4 * i] + picture.indirect[4 * i];
+      ASSERT_NEAR(sum / empty.direct[4 * i], 1.0f, 0.02f) << kind;
+    }
+  }
+}
+
+TEST(Proxies, NormalisationOfOneSphereIsOne) {
+  const Scene scene = planeScene("uniform");
+  for (const float height : {1.4f, 2.0f, 2.8f, 6.0f}) {  // sine 0.6 below the first
+    const frame::Proxy sphere{{0.0f, height, 0.0f}, 0.84f, glm::vec3(0.5f)};
+    const Picture picture = draw(scene, kAbove, {sphere}, {{"coverage", "all"}});
+    for (const float share : picture.normalisation) ASSERT_NEAR(share, 1.0f, 0.01f) << height;
+  }
+}
+
+// Spheres that overlap many times over send back no more than they take together.
+TEST(Proxies, OverlappingProxiesSendNoMoreThanTheyBlock) {
+  const Scene scene = planeScene("uniform");
+  const frame::Proxy sphere{{0.0f, 2.0f, 0.0f}, 0.8f, glm::vec3(1.0f)};
+  const Picture open = draw(scene, kAbove, {});
+  const Picture many = draw(scene, kAbove, std::vector<frame::Proxy>(20, sphere), {{"coverage", "all"}});
+  float most = 0.0f;
+  for (std::size_t i = 0; i < open.pixels(); ++i) {
+    const float sum = many.direct[4 * i] + many.indirect[4 * i];
+    ASSERT_NEAR(sum / open.direct[4 * i], 1.0f, 0.2f);
+    most = std::max(most, many.indirect[4 * i] / open.direct[4 * i]);
+  }
+  EXPECT_GT(most, 0.04f);
+}
+
+std::vector<frame::Proxy> crowd(int count) {
+  std::vector<frame::Proxy> proxies;
+  const std::vector<glm::vec3> ways = sampling::fibonacciSphere(count);
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 way = ways[std::size_t(i)];
+    proxies.push_back({glm::vec3(3.5f * way.x, 0.5f + 0.3f * std::abs(way.y), 3.5f * way.z),
+                       0.1f + 0.02f * float(i % 5), 0.5f + 0.5f * way});
+  }
+  return proxies;
+}
+
+TEST(Proxies, CoverageOracleChangesThePictureByAtMostFourOf256) {
+  for (const char* sky : {"preetham?elevation=25", "gradient"}) {
+    const Scene scene = planeScene(sky);
+    const Picture all = draw(scene, kAbove, crowd(16), {{"coverage", "all"}});
+    glm::vec3 open(0.0f);  // the brightest shade
+    for (const glm::vec3& n : sampling::fibonacciSphere(500))
+      open = glm::max(open, sh::irradiance(projectEnvironment(scene.environment, 3), n));
+    for (const char* coverage : {"fixed", "light"}) {
+      const Picture picture = draw(scene, kAbove, crowd(16), {{"coverage", coverage}});
+      for (std::size_t i = 0; i < all.direct.size(); ++i) {
+        const float most = open[int(std::min(i % 4, std::size_t(2)))] * 4.0f / 256.0f;
+        ASSERT_NEAR(picture.direct[i], all.direct[i], most) << sky << ' ' << coverage;
+        ASSERT_NEAR(picture.indirect[i], all.indirect[i], most) << sky << ' ' << coverage;
+      }
+    }
+  }
+}
+
+// A ball that one sphere stands for, exactly or a little too large, is lit as if nothing stood for it.
+TEST(Proxies, WellFittedSphereDoesNotBlackenItself) {
+  SceneBuilder builder("ball");
+  builder.place("ball", shapes::icosphere(1.0f, 24), builder.diffuse("white", glm::vec3(0.8f)));
+  builder.sky("preetham?elevation=40");
+  const Scene scene = builder.finish();
+  const PosedCamera camera = frame::cameraAt({1, 2, 5}, {0, 0, 0}, 28);
+  const Picture open = draw(scene, camera, {});
+  float brightest = 0.0f;
+  for (std::size_t i = 0; i < open.pixels(); ++i) brightest = std::max(brightest, open.direct[4 * i + 1]);
+  for (const float radius : {0.99f, 1.0f, 1.03f}) {
+    const Picture picture = draw(scene, camera, {{glm::vec3(0.0f), radius, glm::vec3(0.8f)}});
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+      if (picture.covered(i)) {
+        ASSERT_NEAR(picture.direct[4 * i + 1], open.direct[4 * i + 1], 0.05f * brightest) << radius;
+      }
+    }
+  }
+}
+
+TEST(Proxies, ExponentialsAgree) {
+  const Scene scene = planeScene("preetham?elevation=40");
+  const Picture want = draw(scene, kAbove, crowd(40));
+  const auto worst = [&](const char* name) {
+    const Picture got = draw(scene, kAbove, crowd(40), {{"exponential", name}});
+    float difference = 0.0f, brightest = 0.0f;
+    for (std::size_t i = 0; i < want.direct.size(); ++i) {
+      if (i % 4 == 3) continue;
+      difference = std::max(difference, std::abs(got.direct[i] - want.direct[i]));
+      brightest = std::max(brightest, want.direct[i]);
+    }
+    return difference / brightest;
+  };
+  EXPECT_LT(worst("hyb"), 0.02f);
+  EXPECT_LT(worst("ps"), 0.02f);
+  EXPECT_LT(worst("ol"), 0.15f);
+}
+
+TEST(Proxies, ManyProxiesAndTheSamePictureTwice) {
+  const Scene scene = planeScene("gradient");
+  const Picture first = draw(scene, kAbove, crowd(2000)), second = draw(scene, kAbove, crowd(2000));
+  EXPECT_EQ(first.direct, second.direct);
+  EXPECT_EQ(first.indirect, second.indirect);
+  for (const float value : first.direct) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
+  for (const float value : first.indirect) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
+}
+
+// Coarse receivers brought to pixels agree with a receiver a pixel, silhouettes and contact included.
+TEST(Proxies, CoarseReceiversShowTheSamePicture) {
+  SceneBuilder builder("balls");
+  const int grey = builder.diffuse("grey", glm::vec3(0.6f));
+  builder.place("ground", shapes::ground(20, 20, 1, 1), grey);
+  builder.place("ball", shapes::icosphere(1.0f, 16), grey, {0, 1, 0});
+  builder.place("pole", shapes::cylinder(0.06f, 3.0f, 0.02f, 16, 4), grey, {1.6f, 0, 0.5f});
+  builder.sky("preetham?elevation=40");
+  const Scene scene = builder.finish();
+  const PosedCamera camera = frame::cameraAt({3, 4, 7}, {0, 1, 0}, 35);
+  const std::vector<frame::Proxy> proxies = {{{0, 1, 0}, 1.0f, glm::vec3(0.6f)}};
+  const auto colors = [&](const Values& values) {
+    frame::TestFrame frame(scene);
+    Proxies technique(gpu::testDevice());
+    Settings settings(info().options);
+    for (const auto& [name, value] : values) settings.set(name, value);
+    const frame::FrameImages images =
+        frame.draw(pose(scene, 0.0f), camera, {.width = 128, .height = 128, .proxies = proxies},
+                   [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                     return technique.record(graph, inputs, settings);
+                   });
+    return images.direct.image().downloadFloats();
+  };
+  const std::vector<float> want = colors({{"divisor", "1"}});
+  const auto error = [&](const char* divisor, const char* way) {
+    const std::vector<float> got = colors({{"divisor", divisor}, {"upsample", way}});
+    double wrong = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      if (i % 4 == 3) continue;
+      wrong += double(got[i] - want[i]) * double(got[i] - want[i]), all += double(want[i]) * double(want[i]);
+    }
+    return std::sqrt(wrong / all);
+  };
+  const double field = error("4", "field"), shaded = error("4", "shaded"), bilinear = error("4", "bilinear");
+  EXPECT_LT(field, 0.01);
+  EXPECT_LT(error("4", "normal"), 0.012);
+  EXPECT_LT(error("8", "field"), 0.02);
+  EXPECT_LT(shaded, 0.05);
+  EXPECT_LT(field, shaded);
+  EXPECT_LT(shaded, bilinear);
+}
+
+TEST(Proxies, WithoutProxiesItIsUnshadowedAndWithoutLightDark) {
+  Scene scene = planeScene("preetham?elevation=40");
+  const Picture picture = draw(scene, kAbove, {});
+  const glm::vec3 want = sh::irradiance(projectEnvironment(scene.environment, 4), {0, 1, 0});
+  for (std::size_t i = 0; i < picture.pixels(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(picture.direct[4 * i + std::size_t(c)], want[c], 0.002f * want[c]);
+    ASSERT_EQ(picture.indirect[4 * i], 0.0f);
+  }
+  scene.environment = {};
+  frame::TestFrame frame(scene);
+  Proxies technique(gpu::testDevice());
+  const frame::FrameImages images =
+      frame.draw(pose(scene, 0.0f), kAbove, {.width = 8, .height = 8},
+                 [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                   return technique.record(graph, inputs, Settings(info().options));
+                 });
+  for (const float value : images.direct.image().downloadFloats())
+    ASSERT_TRUE(value == 0.0f || value == 1.0f);
+}
+
+}  // namespace
+}  // namespace gloam::proxies

@@ -1,0 +1,32 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Which proxies reach a tile (PX-7): a bit each, so that receivers meet them in their own order, whoever runs first. A proxy
+// reaches as far as it looks larger than least_sine; what the receiver rule makes of it is never larger than r / d.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "techniques/proxies/proxies_shared.h"
+
+layout(local_size_x = 64) in;
+layout(scalar, set = 0, binding = 0) readonly buffer Bounds { TileBounds at[]; } bounds;
+layout(scalar, set = 0, binding = 1) readonly buffer Proxies { ProxyRow at[]; } proxies;
+layout(scalar, set = 0, binding = 2) writeonly buffer Bits { uint at[]; } bits;
+layout(scalar, push_constant) uniform Push { TileParams params; } push;
+
+void main() {
+  uint tile = gl_GlobalInvocationID.x, word = gl_WorkGroupID.y;
+  if (tile >= push.params.tiles) return;
+  TileBounds box = bounds.at[tile];
+  uint mask = 0u;
+  for (uint b = 0u; b < 32u; ++b) {
+    uint i = word * 32u + b;
+    if (i >= push.params.proxies) break;
+    vec3 center = proxies.at[i].center;
+    float radius = proxies.at[i].radius;
+    vec3 away = center - clamp(center, box.low, box.high);
+    float seen = push.params.least_sine * length(away);
+    mask |= seen < radius && box.low.x <= box.high.x ? 1u << b : 0u;
+  }
+  bits.at[tile * gl_NumWorkGroups.y + word] = mask;
+}
