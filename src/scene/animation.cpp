@@ -45,6 +45,22 @@ void cubicSpline(const AnimationChannel& channel, std::size_t key, float u, floa
   }
 }
 
+bool movesNode(const AnimationChannel& channel) {
+  if (channel.path == AnimationChannel::Path::kWeights || channel.times_s.size() < 2) return false;
+  if (channel.interpolation == Interpolation::kCubicSpline) return true;  // also between equal keys
+  const std::size_t n = std::size_t(channel.components);
+  const auto begin = channel.values.begin(), end = channel.values.end();
+  return !std::equal(begin + std::ptrdiff_t(n), end, begin);
+}
+
+bool showsRigidMesh(const Scene& scene, const Node& node) {
+  if (node.skin != kNone) return false;
+  return std::ranges::any_of(node.meshes, [&](int mesh) {
+    const Mesh& shown = scene.meshes[std::size_t(mesh)];
+    return shown.morph_targets.empty() && !shown.indices.empty();
+  });
+}
+
 }  // namespace
 
 std::vector<const AnimationChannel*> channelsInPlay(const Scene& scene) {
@@ -89,6 +105,26 @@ void sampleChannel(const AnimationChannel& channel, float time_s, std::vector<fl
     return;
   }
   for (std::size_t c = 0; c < n; ++c) value[c] = (1.0f - u) * v0[c] + u * v1[c];
+}
+
+bool movesApart(const Scene& scene) {
+  std::vector<bool> moved(scene.nodes.size(), false);
+  for (const AnimationChannel* channel : channelsInPlay(scene)) {
+    if (movesNode(*channel)) moved[std::size_t(channel->node)] = true;
+  }
+  // Meshes that hang on the same moving node, or on none, keep their places to one another.
+  std::set<int> movers;
+  std::vector<std::pair<int, int>> open;  // node, the nearest moving node above it
+  for (const int root : scene.roots) open.emplace_back(root, kNone);
+  while (!open.empty() && movers.size() < 2) {
+    auto [index, mover] = open.back();
+    open.pop_back();
+    const Node& node = scene.nodes[std::size_t(index)];
+    if (moved[std::size_t(index)]) mover = index;
+    if (showsRigidMesh(scene, node)) movers.insert(mover);
+    for (const int child : node.children) open.emplace_back(child, mover);
+  }
+  return movers.size() > 1;
 }
 
 float Scene::duration_s() const {

@@ -19,4 +19,8 @@ std::vector<const AnimationChannel*> channelsInPlay(const Scene& scene);
 /// follow the normalised spline. Formulas: glTF 2.0 specification, appendix C.
 void sampleChannel(const AnimationChannel& channel, float time_s, std::vector<float>& value);
 
+/// Whether rigid meshes that the scene shows move against one another: what is baked into them then holds for one instant.
+/// By what moves each of them, not by how: two doors that swing in step count as two.
+bool movesApart(const Scene& scene);
+
 }  // namespace gloam

@@ -102,5 +102,34 @@ TEST(Animation, TheFirstAnimationOfAPropertyPlays) {
   EXPECT_EQ(Scene{}.duration_s(), 0.0f);
 }
 
+TEST(Animation, MeshesMoveApartWhereTheyHangOnDifferentMovingNodes) {
+  Scene scene;
+  scene.meshes.resize(1);
+  scene.meshes[0].indices = {0, 1, 2};
+  scene.nodes.resize(4);  // 0 carries 1; 2 stands alone; 3 shows nothing
+  scene.nodes[0].children = {1};
+  scene.roots = {0, 2, 3};
+  for (const std::size_t i : {0, 1, 2}) scene.nodes[i].meshes = {0};
+  const auto animate = [&](int node, std::vector<float> values, Path path = Path::kTranslation) {
+    AnimationChannel moving = channel(path, Interpolation::kLinear, {0, 1}, std::move(values), 3);
+    moving.node = node;
+    scene.animations = {{"", {moving}}};
+  };
+  EXPECT_FALSE(movesApart(scene));
+  animate(0, {0, 0, 0, 1, 0, 0});
+  EXPECT_TRUE(movesApart(scene));
+  animate(0, {1, 0, 0, 1, 0, 0});  // stands still
+  EXPECT_FALSE(movesApart(scene));
+  animate(3, {0, 0, 0, 1, 0, 0});
+  EXPECT_FALSE(movesApart(scene));
+  animate(0, {0, 0, 0, 1, 0, 0});
+  scene.nodes[2].meshes.clear();  // what is left moves as one
+  EXPECT_FALSE(movesApart(scene));
+  animate(1, {0, 0, 0, 1, 0, 0});
+  EXPECT_TRUE(movesApart(scene));
+  scene.nodes[1].skin = 0;  // is not baked
+  EXPECT_FALSE(movesApart(scene));
+}
+
 }  // namespace
 }  // namespace gloam

@@ -174,7 +174,10 @@ Scene importInChild(const std::filesystem::path& path, double seconds, std::uint
                 fmt::format("assimp crashed on it (signal {}): the file is broken", signal_number));
   const std::span<const std::uint8_t> payload(output.data() + 1, output.size() - 1);
   if (output[0] == kNoMemory)
-    throw Error(path.string(), fmt::format("assimp needed more than {} MB for it", bytes / 1000000));
+    throw Error(
+        path.string(),
+        fmt::format("assimp needed more than {} MB for it: it claims more than it holds, or is broken",
+                    bytes / 1000000));
   if (output[0] != kScene) throw Error(std::string(payload.begin(), payload.end()));
   return unpackScene(payload);
 }

@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
+#include <string_view>
 #include <unordered_map>
 
 #include "scene/assimp_parts.h"
@@ -157,6 +159,9 @@ Scene importWithAssimp(const std::filesystem::path& path) {
   unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
   if (extension == ".fbx") steps |= aiProcess_GlobalScale;  // to metres, by the unit that the file names
   const aiScene* source = importer.ReadFile(path.string(), steps);
+  // assimp turns it into text.
+  if (!source && std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
+    throw std::bad_alloc();
   if (!source)
     throw Error(path.string(), fmt::format("assimp cannot read it: {}", importer.GetErrorString()));
   if (!source->mRootNode) throw Error(path.string(), "assimp found nothing in it");

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "image/limits.h"
+#include "scene/mesh_file_claims.h"
 #include "scene/mesh_repair.h"
 #include "scene/read_budget.h"
 #include "scene/scene_check.h"
@@ -89,6 +91,10 @@ Scene readWithAssimp(const fs::path& path, const Progress& progress) {
   progress.report(0.0, "reading " + path.filename().string());
   std::uint64_t size = 0;
   openForReading(path, &size);
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".off") checkOffFile(path);
+  if (extension == ".ply") checkPlyFile(path);
   const double seconds = 5.0 + static_cast<double>(size) / 1e6;
   const std::uint64_t bytes = (std::uint64_t(640) << 20) + 100 * size;
   Scene scene = importInChild(path, seconds, bytes, progress, importWithAssimp);

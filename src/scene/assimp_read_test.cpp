@@ -90,6 +90,38 @@ TEST_F(AssimpRead, BrokenFilesGetOneLine) {
   EXPECT_NE(refusal(put("a.3ds", Bytes{0x4d, 0x4d, 0xff, 0xff, 0xff, 0xff})), "");
 }
 
+TEST_F(AssimpRead, OffFilesMustHoldWhatTheyClaim) {
+  const std::string points = "0 0 0\n1 0 0 # to the right\n\n0 1 0\n";
+  const auto says = [&](const std::string& text, const char* words) {
+    const std::string message = refusal(put("a.off", text));
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  says("OFF\n3 1 0\n" + points + "3 0 1 7\n", "face 0 names vertex 7, there are 3");
+  says("OFF\n3 1 0\n" + points + "3 0 1 -1\n", "face 0 names vertex -1");
+  says("OFF 3 2 0\n" + points + "3 0 1 2\n", "claims 2 faces, holds 1");
+  says("OFF\n3 1 0\n" + points + "3 0 1\n", "face 0 holds 2 of its 3 vertices");
+  says("OFF\n4000000000 1 0\n0 0 0\n", "claims 4000000000 vertices, holds 1");
+  for (const char* header :
+       {"OFF\n3 1 0\n", "OFF3 1 0\n", "# a comment\nOFF\n# another\n3 1 0\n", "OFF 3 1 0\n"})
+    EXPECT_EQ(refusal(put("a.off", header + points + "3 0 1 2 255 0 0\n")), "") << header;
+}
+
+TEST_F(AssimpRead, PlyHeadersCannotClaimMoreThanTheFile) {
+  const auto file = [](const char* format, const char* vertices, const char* faces) {
+    return std::string("ply\nformat ") + format + " 1.0\nelement vertex " + vertices +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    for (const char* count : {"4294967295", "4000000000", "99999999999999999999999"}) {
+      const std::string message = refusal(put("a.ply", file(format, count, "1")));
+      EXPECT_NE(message.find("elements 'vertex', more than a file of"), std::string::npos) << message;
+    }
+    const std::string message = refusal(put("a.ply", file(format, "0", "4000000000")));
+    EXPECT_NE(message.find("claims 4000000000 elements 'face'"), std::string::npos) << message;
+  }
+}
+
 TEST_F(AssimpRead, RandomDamageIsReadOrRefusedInBoundedTime) {
   std::uint32_t random = 3;
   for (int i = 0; i < 40; ++i) {

@@ -56,9 +56,8 @@ struct Spoke {
 };
 
 /// Joins corners around a vertex whose faces meet in an edge at less than the crease: returns each corner's group.
-std::vector<std::uint32_t> smoothingGroups(const Mesh& mesh, const std::vector<glm::dvec3>& face_normals,
-                                           double least_cos) {
-  const std::vector<std::uint32_t> weld = weldByPosition(mesh);
+std::vector<std::uint32_t> smoothingGroups(const Mesh& mesh, const std::vector<std::uint32_t>& weld,
+                                           const std::vector<glm::dvec3>& face_normals, double least_cos) {
   std::vector<Spoke> spokes;
   spokes.reserve(mesh.indices.size() * 2);
   for (std::uint32_t corner = 0; corner < mesh.indices.size(); ++corner) {
@@ -69,14 +68,60 @@ std::vector<std::uint32_t> smoothingGroups(const Mesh& mesh, const std::vector<g
   std::sort(spokes.begin(), spokes.end());
   std::vector<std::uint32_t> parent(mesh.indices.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  for (std::size_t i = 1; i < spokes.size(); ++i) {
-    const Spoke &a = spokes[i - 1], &b = spokes[i];
-    if (a.vertex != b.vertex || a.other != b.other) continue;
-    if (glm::dot(face_normals[a.corner / 3], face_normals[b.corner / 3]) < least_cos) continue;
-    parent[findRoot(parent, a.corner)] = findRoot(parent, b.corner);
+  constexpr std::size_t kMostFaces = 16;  // that meet in one edge and are all compared; two in a good mesh
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const Spoke& a = spokes[i];
+    for (std::size_t j = i + 1; j < std::min(spokes.size(), i + kMostFaces); ++j) {
+      const Spoke& b = spokes[j];
+      if (a.vertex != b.vertex || a.other != b.other) break;
+      if (glm::dot(face_normals[a.corner / 3], face_normals[b.corner / 3]) < least_cos) continue;
+      parent[findRoot(parent, a.corner)] = findRoot(parent, b.corner);
+    }
   }
   for (std::uint32_t corner = 0; corner < parent.size(); ++corner) parent[corner] = findRoot(parent, corner);
   return parent;
+}
+
+/// What the corners of a group add up to; stored at the group's number.
+struct GroupSum {
+  glm::dvec3 normal{0.0};
+  double angle = 0.0;
+};
+
+std::vector<GroupSum> sumGroups(const Mesh& mesh, const std::vector<std::uint32_t>& group,
+                                const std::vector<glm::dvec3>& face_normals) {
+  std::vector<GroupSum> sums(group.size());
+  for (std::uint32_t corner = 0; corner < group.size(); ++corner) {
+    const double angle = angleAt(mesh, &mesh.indices[corner / 3 * 3], corner % 3);
+    sums[group[corner]].normal += face_normals[corner / 3] * angle;
+    sums[group[corner]].angle += angle;
+  }
+  return sums;
+}
+
+/// Scans and simplified meshes hold faces that are folded over onto their neighbours, or lie on them upside down. Such a
+/// corner is no edge to be kept: given a normal of its own it would look into the body. It takes that of the greatest
+/// group at its place, and adds nothing to it. What tells it from the rim of a thin body, where both sides are as wide: a
+/// sheet that goes once around a point and folds over by an angle has 2 pi more of the one direction than of the other.
+void joinFolds(const Mesh& mesh, const std::vector<std::uint32_t>& weld, const std::vector<GroupSum>& sums,
+               std::vector<std::uint32_t>& group) {
+  constexpr double kLargestShare = 0.5, kLeastOpposedCos = 0.5;  // half as wide, and turned by 120 degrees
+  constexpr std::uint32_t kNoGroup = ~0u;
+  std::vector<std::uint32_t> greatest(mesh.vertexCount(), kNoGroup);
+  for (std::uint32_t g = 0; g < sums.size(); ++g) {
+    if (group[g] != g) continue;
+    std::uint32_t& best = greatest[weld[mesh.indices[g]]];
+    if (best == kNoGroup || sums[g].angle > sums[best].angle) best = g;
+  }
+  const auto isFold = [&](std::uint32_t g, std::uint32_t best) {
+    const GroupSum &a = sums[g], &b = sums[best];
+    return a.angle < kLargestShare * b.angle &&
+           glm::dot(a.normal, b.normal) < -kLeastOpposedCos * glm::length(a.normal) * glm::length(b.normal);
+  };
+  for (std::uint32_t& g : group) {
+    const std::uint32_t best = greatest[weld[mesh.indices[g]]];
+    if (isFold(g, best)) g = best;
+  }
 }
 
 /// Makes one vertex of every pair (old vertex, key of a corner). Returns the new vertices' keys.
@@ -114,17 +159,17 @@ void computeNormals(Mesh& mesh, float crease_rad) {
   }
   // Coplanar faces stay together at a crease of 0: a rounding error of a float's position moves a normal by about 1e-5.
   const double least_cos = std::min(std::cos(static_cast<double>(crease_rad)), 1.0 - 1e-9);
-  std::vector<std::uint32_t> group = smoothingGroups(mesh, face_normals, least_cos);
-  std::vector<glm::dvec3> sums(mesh.indices.size(), glm::dvec3(0.0));
-  for (std::uint32_t corner = 0; corner < group.size(); ++corner)
-    sums[group[corner]] +=
-        face_normals[corner / 3] * angleAt(mesh, &mesh.indices[corner / 3 * 3], corner % 3);
+  const std::vector<std::uint32_t> weld = weldByPosition(mesh);
+  std::vector<std::uint32_t> group = smoothingGroups(mesh, weld, face_normals, least_cos);
+  const std::vector<GroupSum> sums = sumGroups(mesh, group, face_normals);
+  if (crease_rad > kFlat) joinFolds(mesh, weld, sums, group);
 
   std::vector<std::uint32_t> keys = splitVertices(mesh, group);
   mesh.normals.resize(mesh.vertexCount());
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const double length = glm::length(sums[keys[i]]);
-    mesh.normals[i] = glm::vec3(length > 1e-12 ? sums[keys[i]] / length : face_normals[keys[i] / 3]);
+    const glm::dvec3& sum = sums[keys[i]].normal;
+    const double length = glm::length(sum);
+    mesh.normals[i] = glm::vec3(length > 1e-12 ? sum / length : face_normals[keys[i] / 3]);
   }
 }
 

@@ -25,7 +25,8 @@ std::size_t removeDegenerateTriangles(Mesh& mesh);
 
 /// Computes normals, weighted by angle, and splits vertices where faces meet at more than `crease_rad`; faces are
 /// neighbours where their positions coincide, whatever their indices say. A crease of 0 gives flat shading (what glTF asks
-/// for where normals are missing), still sharing vertices between coplanar faces.
+/// for where normals are missing), still sharing vertices between coplanar faces. With any other, faces that are folded
+/// over onto their neighbours take the normals of these.
 void computeNormals(Mesh& mesh, float crease_rad);
 inline constexpr float kFlat = 0.0f;
 inline constexpr float kSmoothCreaseRad =

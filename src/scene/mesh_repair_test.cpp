@@ -66,6 +66,51 @@ TEST(MeshRepair, ACreaseKeepsTheEdgesOfABox) {
     EXPECT_NEAR(glm::dot(round.normals[i], glm::normalize(round.positions[i] - 0.5f)), 1.0f, 1e-6f);
 }
 
+// Closed meshes with a face that lies the wrong way round, or is folded over its neighbours: no vertex may look inward.
+TEST(MeshRepair, FacesUpsideDownTakeTheNormalsOfTheirNeighbours) {
+  Mesh sphere = sphereSoup(16);
+  removeDegenerateTriangles(sphere);
+  removeUnusedVertices(sphere);
+  const auto flip = [](Mesh& mesh, std::size_t face) {
+    std::swap(mesh.indices[3 * face], mesh.indices[3 * face + 1]);
+  };
+  const std::size_t faces = sphere.triangleCount();
+  for (const std::size_t face : {std::size_t(3), faces / 2, faces - 7}) {
+    Mesh flipped = sphere;
+    flip(flipped, face);
+    Mesh folded = sphere;  // once more on top, and once more upside down: each edge still has its pairs
+    for (const bool down : {false, true}) {
+      for (std::size_t k = 0; k < 3; ++k) folded.indices.push_back(sphere.indices[3 * face + k]);
+      if (down) flip(folded, folded.triangleCount() - 1);
+    }
+    for (Mesh* mesh : {&flipped, &folded}) {
+      computeNormals(*mesh, kSmoothCreaseRad);
+      for (std::size_t i = 0; i < mesh->vertexCount(); ++i)
+        EXPECT_GT(glm::dot(mesh->normals[i], glm::normalize(mesh->positions[i])), std::cos(0.15f)) << face;
+    }
+  }
+}
+
+TEST(MeshRepair, ThinBodiesKeepBothSides) {
+  Mesh plate = box();  // without height
+  for (glm::vec3& p : plate.positions) p.y *= 1e-3f;
+  computeNormals(plate, kSmoothCreaseRad);
+  EXPECT_EQ(plate.vertexCount(), 24u);
+  Mesh leaf;  // a sheet that was given a back
+  leaf.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  leaf.indices = {0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0};
+  computeNormals(leaf, kSmoothCreaseRad);
+  ASSERT_EQ(leaf.vertexCount(), 8u);
+  for (std::size_t i = 0; i < leaf.indices.size(); ++i)
+    EXPECT_NEAR(leaf.normals[leaf.indices[i]].z, i < 6 ? 1.0f : -1.0f, 1e-6f);
+  Mesh wedge;  // a blade's edge of 20 degrees
+  wedge.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0.18f, 0}, {1, 0.18f, 1}, {1, -0.18f, 0}, {1, -0.18f, 1}};
+  wedge.indices = {0, 1, 3, 0, 3, 2, 0, 5, 1, 0, 4, 5};
+  computeNormals(wedge, kSmoothCreaseRad);
+  for (std::size_t i = 0; i < wedge.indices.size(); ++i)
+    EXPECT_GT(wedge.normals[wedge.indices[i]].y * (i < 6 ? 1.0f : -1.0f), 0.9f);
+}
+
 TEST(MeshRepair, AConeOfManyFlatSidesIsSplitAtItsTip) {
   Mesh mesh;
   constexpr std::uint32_t n = 50000;
