@@ -202,6 +202,11 @@ void addWalls(SceneBuilder& builder, const Detail& detail) {
                                shapes::spaced(0.5f * kWall - behind, 0.3f), shapes::spaced(down, 0.3f)));
   shapes::append(outside, shapes::patch({kHalfLength + 0.1f, roof, behind}, {-1, 0, 0}, {0, -1, 0},
                                         shapes::spaced(length + 0.1f, 0.4f), shapes::spaced(down, 0.4f)));
+  // What closes the gap between the last arch and the sheet beside it, a little behind the arcade's face.
+  const float arches_end = 0.5f * kBay * float(kBays) - 0.02f;
+  shapes::append(outside, shapes::patch({arches_end, roof, 0.5f * kWall - 0.005f}, {1, 0, 0}, {0, -1, 0},
+                                        shapes::spaced(kHalfLength + 0.1f - arches_end, 0.05f),
+                                        shapes::spaced(down, 0.1f)));
   builder.place("outside", std::move(outside), lime);
 }
 
