@@ -115,6 +115,8 @@ class Run {
   void save() {
     if (goal_.checkpoint.empty()) return;
     const Clock::time_point begin = Clock::now();
+    // A large picture's file takes seconds: whoever pressed Ctrl-C sees what they wait for.
+    progress_.report(std::min(tracer_.samples() / expected_, 1.0), "reference: keeping the samples");
     tracer_.save(goal_.checkpoint);
     // Large pictures are kept less often: at most a tenth of the time goes into it.
     next_save_ = Clock::now() + std::max<Clock::duration>(kSaveInterval, 10 * (Clock::now() - begin));
