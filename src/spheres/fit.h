@@ -12,11 +12,21 @@
 
 namespace gloam::spheres {
 
+/// Places of a deforming surface, at rest and at some instants of its motion, in one unit of length.
+struct Motion {
+  std::vector<glm::vec3> rest;
+  std::vector<std::vector<glm::vec3>> moved;  ///< [instant][place]
+  std::size_t nearest(const glm::vec3& p) const;
+};
+
 /// What the balls have to hold, apart by coordinate for the inner loops.
 struct FitPoints {
   std::vector<float> x, y, z;
+  const Motion* motion = nullptr;  ///< set before the first point is added, or never
+  std::vector<std::vector<glm::vec3>>
+      moved;  ///< [instant][point]: carried by the nearest place of the motion
   std::size_t count() const { return x.size(); }
-  void add(const glm::vec3& p) { x.push_back(p.x), y.push_back(p.y), z.push_back(p.z); }
+  void add(const glm::vec3& p);
   glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
@@ -34,7 +44,7 @@ class Fit {
   /// sinks evenly from `tolerance_begin` to `tolerance_end`.
   void run(int moves, float tolerance_begin, float tolerance_end);
 
-  /// Sum of the balls' volumes outside the solid, of the best state so far.
+  /// Sum of the balls' volumes outside the solid, of the best state so far; with what motion adds to them.
   double cost() const { return best_.cost; }
   /// The best state so far; balls that hold nothing by themselves have radius 0.
   const std::vector<Ball>& balls() const { return best_.balls; }
@@ -42,7 +52,7 @@ class Fit {
  private:
   struct State {
     std::vector<Ball> balls;
-    std::vector<float> outside;        ///< of each ball
+    std::vector<float> outside;        ///< of each ball, with what motion adds
     std::vector<std::uint16_t> cover;  ///< of each point: how many balls hold it
     std::vector<std::uint64_t>
         bound;  ///< of each ball: which points set its size when it was fitted last; 0: none
@@ -54,6 +64,9 @@ class Fit {
   void gather(const Points& points);
   float requiredRadius(const glm::vec3& center) const;
   float price(const glm::vec3& center, float& radius) const;
+  /// Share by which motion swells a ball that must hold these points: the mean over instants of (spread / spread at rest)^3,
+  /// less 1. A ball that goes with one bone has none, one round both feet has much.
+  float strain(const Points& points) const;
   Ball tightest(glm::vec3 center, float step, float& outside) const;
   void replace(std::size_t ball, const Ball& with, float outside);
   void replaceWithBest(std::size_t ball, const Points& required);

@@ -17,7 +17,56 @@ constexpr float kSmallestStep = 0.005f;  // of the radius
 constexpr float kBoundingShell = 0.97f;  // of the radius: points beyond it decide where the ball can go
 constexpr float kSlack = 1.0f + 1e-5f;   // a point that sets the radius stays inside, whatever the rounding
 
+constexpr float kMostStrain = 2.0f;  // spread over spread at rest: beyond, the ball is useless anyway
+
+/// Root mean square distance from the mean.
+template <class At>
+float spreadOf(std::size_t count, const At& at) {
+  glm::vec3 mean(0.0f);
+  for (std::size_t i = 0; i < count; ++i) mean += at(i);
+  mean /= float(count);
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::vec3 d = at(i) - mean;
+    sum += glm::dot(d, d);
+  }
+  return std::sqrt(sum / float(count));
+}
+
 }  // namespace
+
+std::size_t Motion::nearest(const glm::vec3& p) const {
+  std::size_t best = 0;
+  float least = INFINITY;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const glm::vec3 d = rest[i] - p;
+    if (glm::dot(d, d) < least) least = glm::dot(d, d), best = i;
+  }
+  return best;
+}
+
+void FitPoints::add(const glm::vec3& p) {
+  x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  if (motion == nullptr) return;
+  moved.resize(motion->moved.size());
+  const std::size_t carrier = motion->nearest(p);
+  for (std::size_t m = 0; m < moved.size(); ++m) {
+    moved[m].push_back(motion->moved[m][carrier] + (p - motion->rest[carrier]));
+  }
+}
+
+float Fit::strain(const Points& points) const {
+  if (points_.moved.empty() || points.size() < 2) return 0.0f;
+  const float rest = spreadOf(points.size(), [&](std::size_t i) { return points_.at(points[i]); });
+  if (!(rest > 0.0f)) return 0.0f;
+  float sum = 0.0f;
+  for (const std::vector<glm::vec3>& moved : points_.moved) {
+    const float now = spreadOf(points.size(), [&](std::size_t i) { return moved[points[i]]; });
+    const float ratio = std::clamp(now / rest, 1.0f, kMostStrain);
+    sum += ratio * ratio * ratio - 1.0f;
+  }
+  return sum / float(points_.moved.size());
+}
 
 void Fit::gather(const Points& points) {
   required_.x.clear(), required_.y.clear(), required_.z.clear();
@@ -158,6 +207,7 @@ void Fit::replaceWithBest(std::size_t ball, const Points& required) {
   const bool from_old = price_old <= price_middle;
   const Ball found = tightest(from_old ? old.center : middle,
                               (from_old ? 0.1f : 0.2f) * (from_old ? at_old : at_middle), outside);
+  outside += strain(required) * ballVolume(found.radius);
   replace(ball, found, outside);
 }
 

@@ -80,6 +80,9 @@ void Fit::startFrom(const std::vector<Ball>& balls) {
     now_.outside[b] = occupancy_.outsideVolume(balls[b].center, balls[b].radius);
     if (balls[b].radius > 0.0f) countCover(balls[b], 1);
   }
+  for (std::size_t b = 0; b < balls.size(); ++b) {
+    now_.outside[b] += strain(ownedBy(b)) * ballVolume(balls[b].radius);
+  }
   Points orphans;
   for (std::size_t i = 0; i < points_.count(); ++i) {
     if (now_.cover[i] == 0) orphans.push_back(std::uint32_t(i));

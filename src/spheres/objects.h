@@ -21,6 +21,10 @@ struct Object {
   bool casts() const { return set.receive_only.empty(); }
 };
 
+/// Where the vertices of a deforming object are at some instants of the scene's animation, in units of its solid; each
+/// instant scaled so that the surface keeps its area. Without instants where nothing is animated.
+Motion motionOf(const Object& object, const Scene& scene);
+
 /// One for each different list of meshes and stretch, in the order of nodes; each with its solid.
 std::vector<Object> listObjects(const Scene& scene, const PosedScene& posed, const Progress& progress);
 

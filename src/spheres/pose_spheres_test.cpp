@@ -163,6 +163,45 @@ TEST(PoseSpheres, TheWalkerStaysCovered) {
   }
 }
 
+/// Two bars close beside each other that swing apart.
+Scene legs() {
+  SceneBuilder builder("legs");
+  const int white = builder.diffuse("white", glm::vec3(0.5f));
+  const int left = builder.node("left"), right = builder.node("right");
+  Mesh mesh = shapes::box({-0.22f, -2, -0.1f}, {-0.02f, 0, 0.1f}, 0.05f);
+  shapes::append(mesh, shapes::box({0.02f, -2, -0.1f}, {0.22f, 0, 0.1f}, 0.05f));
+  mesh.influences = 4;
+  for (const glm::vec3& p : mesh.positions) {
+    mesh.joints.insert(mesh.joints.end(), {std::uint16_t(p.x > 0.0f ? 1 : 0), 0, 0, 0});
+    mesh.weights.insert(mesh.weights.end(), {1, 0, 0, 0});
+  }
+  const int body = builder.place("legs", std::move(mesh), white);
+  builder.at(body).skin = builder.skin({left, right}, {glm::mat4(1.0f), glm::mat4(1.0f)});
+  for (const int node : {left, right}) {
+    auto& channel =
+        builder.channel(node, AnimationChannel::Path::kRotation, AnimationChannel::Interpolation::kLinear);
+    const float angle = node == left ? 0.7f : -0.7f;
+    addKey(channel, 0.0f, glm::quat(1, 0, 0, 0));
+    addKey(channel, 1.0f, glm::angleAxis(angle, glm::vec3(1, 0, 0)));
+  }
+  return builder.finish();
+}
+
+TEST(PoseSpheres, NoSphereHoldsWhatMovesApart) {
+  const Scene scene = legs();
+  const SceneSpheres spheres = bakeSpheres(scene, quick(12, 0.3f));
+  int astride = 0;
+  for (const Sphere& s : spheres.sets[0].spheres) {
+    if (s.center.y > -1.0f) continue;  // near the hinge they stay together
+    const float reach = std::sqrt(std::max(0.0f, s.radius * s.radius - s.center.z * s.center.z));
+    const bool whole_left = s.center.x - reach<-0.2f, whole_right = s.center.x + reach> 0.2f;
+    astride += whole_left && whole_right ? 1 : 0;
+  }
+  EXPECT_EQ(astride, 0);
+  const PosedScene apart = pose(scene, 1.0f);
+  EXPECT_GT(coverageOf(apart.instances[0].deformed_positions, poseSpheres(spheres, scene, apart)), 0.97);
+}
+
 TEST(PoseSpheres, RefusesTheSetsOfAnotherScene) {
   const Scene one = sceneOf(shapes::icosphere(1.0f, 4));
   SceneSpheres spheres = bakeSpheres(one, quick(1));

@@ -23,6 +23,7 @@ constexpr float kFinest = 1.0f / 400.0f;
 
 FitPoints leadingPoints(const Solid& solid, const Occupancy& occupancy, const SearchOptions& options) {
   FitPoints points;
+  points.motion = options.motion;
   for (const glm::vec3& p : sampleSurface(solid.soup, options.samples, options.seed)) points.add(p);
   // Inner points as well, a third as many: no hole is left within.
   const std::vector<glm::vec3> inner = occupancy.fullCells();

@@ -15,6 +15,7 @@ struct SearchOptions {
   std::uint32_t seed = 1;
   int samples = 4000;  ///< points of the surface that lead the search; what they miss is found and added
   float effort = 1.0f;
+  const Motion* motion = nullptr;  ///< of what deforms: balls then go with parts that stay together
 };
 
 /// At most `count` balls, in the solid's unit cube, that hold all of its surface. Same bits for any number of threads.
