@@ -11,6 +11,7 @@
 #include "bench_suites.h"
 #include "scene_inputs.h"
 #include "settings_file.h"
+#include "spheres_run.h"
 #include "technique_choice.h"
 #include "timings.h"
 #include "verb.h"
@@ -71,6 +72,10 @@ int benchTechnique(const BenchChoice& choice, Console& console) {
   }
   renderer.setScene(scene);
   renderer.setEnvironment(environment);
+  if (info.needs_spheres) {
+    const int count = settingsFor(info, choice.technique).integer("spheres");
+    renderer.setSpheres(scene, spheresForDrawing(scene, choice.scene.name, true, console, count));
+  }
   const PosedScene posed = pose(scene, choice.view.time_s);
   RenderOptions options;
   options.width = choice.view.size.x, options.height = choice.view.size.y;

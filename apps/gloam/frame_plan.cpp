@@ -39,6 +39,13 @@ void addMotionOptions(CLI::App& app, MotionChoice& choice) {
       ->group("Motion");
 }
 
+void addSkyMotion(CLI::App& app, MotionChoice& choice) {
+  addNumber(app, "--turn-sky", choice.turn_sky_deg, {-36000.0, 36000.0}, "DEGREES",
+            "the environment turns by that much over the frames, about the vertical")
+      ->default_str("0")
+      ->group("Motion");
+}
+
 std::vector<PlannedFrame> planFrames(const MotionChoice& choice, float time_s) {
   double count = std::max(choice.orbit_frames, 1);
   if (choice.animate && choice.orbit_frames == 0) {
@@ -53,6 +60,7 @@ std::vector<PlannedFrame> planFrames(const MotionChoice& choice, float time_s) {
     const double part = double(i) / count;
     PlannedFrame frame{time_s, 0.0f};
     if (choice.orbit_frames > 0) frame.orbit_rad = float(2.0 * std::numbers::pi * part);
+    frame.sky_rad = float(part * double(choice.turn_sky_deg) * std::numbers::pi / 180.0);
     if (choice.animate) {
       const double step_s = choice.orbit_frames > 0
                                 ? part * (double(choice.animate->to_s) - double(choice.animate->from_s))

@@ -13,6 +13,7 @@
 #include "scene_inputs.h"
 #include "settings_file.h"
 #include "show.h"
+#include "spheres_run.h"
 #include "technique_choice.h"
 #include "timings.h"
 #include "verb.h"
@@ -110,6 +111,11 @@ int runRender(RenderChoice choice, Console& console) {
   stage.options.timings = console.json;
   renderer.setScene(stage.scene);
   renderer.setEnvironment(stage.environment);
+  if (stage.technique->needs_spheres) {
+    const int count = stage.options.settings.integer("spheres");
+    renderer.setSpheres(stage.scene, spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache,
+                                                       console, count));
+  }
 
   DisplayOptions display = displayOf(choice.display);
   Timings timings;
@@ -123,6 +129,11 @@ int runRender(RenderChoice choice, Console& console) {
     progress.report(double(i) / double(frames.size()), fmt::format("frame {} of {}", i + 1, frames.size()));
     const PosedScene posed = pose(stage.scene, frames[i].time_s);
     const PosedCamera camera = orbit(stage.camera, posed, frames[i].orbit_rad);
+    if (choice.motion.turn_sky_deg != 0.0f && !stage.environment.empty()) {
+      Environment turned = stage.environment;
+      turned.rotation_rad += frames[i].sky_rad;
+      renderer.setEnvironment(turned);
+    }
     const auto started = std::chrono::steady_clock::now();
     const RenderedFrame frame = renderer.render(posed, camera, stage.options);
     timings.add(
@@ -147,6 +158,7 @@ std::function<int()> declareRender(CLI::App& app, Console& console) {
   addLightOptions(app, choice->light);
   addViewOptions(app, choice->view);
   addMotionOptions(app, choice->motion);
+  addSkyMotion(app, choice->motion);
   addTechniqueOptions(app, choice->technique);
   addDeviceOption(app, choice->device);
   addDisplayOptions(app, choice->display);
@@ -154,7 +166,7 @@ std::function<int()> declareRender(CLI::App& app, Console& console) {
           "one layer of the frame instead of its light, or any image of the technique by name")
       ->group("Output");
   app.add_flag("--no-cache{false}", choice->use_cache,
-               "neither take nor keep the bake of a scene that has none");
+               "neither take nor keep the bake or the spheres of a scene that has none");
   addConsoleOptions(app, console, true);
   addSettingsFile(app);
   return [choice, &console] { return runRender(*choice, console); };

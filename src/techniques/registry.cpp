@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "techniques/irradiance/irradiance.h"
+#include "techniques/proxies/proxies.h"
 #include "techniques/prt/prt.h"
 #include "techniques/technique.h"
 
@@ -26,6 +27,7 @@ const std::vector<Entry>& table() {
   static const std::vector<Entry> entries = {
       {irradiance::info(), make<irradiance::Irradiance>},
       {prt::info(), make<prt::Prt>},
+      {proxies::info(), make<proxies::Proxies>},
   };
   return entries;
 }

@@ -1,0 +1,85 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "spheres_run.h"
+
+#include <fmt/core.h>
+#include <scene/scene_fingerprint.h>
+
+#include <cstdlib>
+#include <optional>
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where sets are kept; nothing where there is no home or it cannot be written.
+std::optional<fs::path> cacheFolder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (cache != nullptr && fs::path(cache).is_absolute()) {
+    folder = cache;
+  } else if (home != nullptr && *home != '\0') {
+    folder = fs::path(home) / ".cache";
+  } else {
+    return std::nullopt;
+  }
+  folder = folder / "gloam" / "spheres";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return std::nullopt;
+  return folder;
+}
+
+/// Changes with anything in the scene but its environment, with every option that changes the result, and with the version.
+std::string keyOf(const Scene& scene, const SphereOptions& options) {
+  Fingerprint key;
+  addAll(key, std::string(GLOAM_VERSION), scene, options.count, options.seed, options.samples,
+         options.effort);
+  return key.text();
+}
+
+/// What was kept, or nothing; a file that cannot be read (damaged, a full disk then) is as good as none.
+std::optional<SceneSpheres> readKept(const fs::path& file, const Scene& scene) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  try {
+    return readSpheres(file, scene);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache,
+                               Console& console, int count) {
+  const SphereOptions options{.count = count};
+  const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
+  fs::path file;
+  if (folder) {
+    file = *folder / (keyOf(scene, options) + ".spheres.json");
+    if (std::optional<SceneSpheres> kept = readKept(file, scene)) {
+      console.remark(fmt::format("{}: {} spheres taken from {}", place, kept->count(), file.string()));
+      console.remarks(place, kept->warnings);
+      return *std::move(kept);
+    }
+  }
+  console.remark(fmt::format("{}: fitting {} spheres first", place, options.count));
+  console.release();
+  SceneSpheres spheres = bakeSpheres(scene, options, console.progress());
+  console.endProgress();
+  console.remarks(place, spheres.warnings);
+  if (folder) {
+    try {
+      writeSpheres(spheres, file);
+      console.remark(fmt::format("spheres kept as {} (--no-cache keeps none)", file.string()));
+    } catch (const Error& error) {
+      console.remark(fmt::format("the spheres are not kept: {}", error.what()));
+    }
+  }
+  return spheres;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,20 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sphere sets as both `gloam bake spheres` and `gloam render` make them.
+#pragma once
+
+#include <gloam/spheres.h>
+
+#include <string>
+
+#include "console.h"
+
+namespace gloam::cli {
+
+/// Sets with default options but their number. Finished ones are kept under $XDG_CACHE_HOME/gloam/spheres (~/.cache/gloam/spheres) by content and
+/// taken from there; `use_cache` false neither reads nor writes them. Throws Error, Interrupted.
+SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache,
+                               Console& console, int count = SphereOptions{}.count);
+
+}  // namespace gloam::cli
