@@ -130,6 +130,47 @@ class PixelPoints {
   unsigned found_ = 0;
 };
 
+/// Samples of a pixel, traced some ahead of being asked for: many of one position go faster side by side.
+class PixelSamples {
+ public:
+  PixelSamples(const TracerState& state, int x, int y, std::size_t pixel, std::size_t& rays)
+      : state_(state), x_(x), y_(y), points_(state, x, y, pixel), rays_(rays) {}
+  /// Sample k of those before `until`, asked for in order; null where nothing is seen.
+  const PathLight* at(std::uint32_t k, std::uint32_t until) {
+    const auto positions = std::uint32_t(state_.sums.positions);
+    if (k >= end_) traceOn(k, std::min(until, k + positions * kAhead));
+    const std::uint32_t position = k % positions;
+    return seen_ >> position & 1u ? &lights_[position * kAhead + k / positions - first_[position]] : nullptr;
+  }
+
+ private:
+  static constexpr std::uint32_t kAhead = 16;  ///< of each position
+  void traceOn(std::uint32_t from, std::uint32_t end) {
+    const auto positions = std::uint32_t(state_.sums.positions);
+    for (std::uint32_t p = 0; p < positions; ++p) {
+      first_[p] = (from + positions - 1 - p) / positions;
+      const std::uint32_t count = (end + positions - 1 - p) / positions - first_[p];
+      if (count == 0) continue;
+      const CameraPoint& point = points_.at(int(p), rays_);
+      if (point.instance == kNone && !state_.options.background) continue;
+      seen_ |= 1u << p;
+      const Position where(state_, x_, y_, int(p));
+      // Every position has a sequence of its own: a part of one pixel's would not spread evenly.
+      state_.integrator->trace(point, where.x, where.y, where.index, first_[p],
+                               std::span(lights_).subspan(p * kAhead, count), rays_);
+    }
+    end_ = end;
+  }
+
+  const TracerState& state_;
+  const int x_, y_;
+  PixelPoints points_;
+  std::size_t& rays_;
+  std::uint32_t end_ = 0, seen_ = 0;
+  std::array<std::uint32_t, 16> first_;
+  std::array<PathLight, 16 * kAhead> lights_;
+};
+
 void tracePixel(TracerState& state, int x, int y, std::uint32_t from, std::uint32_t until,
                 std::size_t& rays) {
   PathSums& sums = state.sums;
@@ -140,16 +181,11 @@ void tracePixel(TracerState& state, int x, int y, std::uint32_t from, std::uint3
   double* squares = &sums.squares[pixel * 3];
   glm::dvec3 round(0.0);
   if (positions > 1) round = {sums.round[3 * pixel], sums.round[3 * pixel + 1], sums.round[3 * pixel + 2]};
-  PixelPoints points(state, x, y, pixel);
+  PixelSamples samples(state, x, y, pixel, rays);
   for (std::uint32_t k = from; k < until; ++k) {
-    const int position = int(k % positions);
-    const CameraPoint& point = points.at(position, rays);
-    if (point.instance != kNone || state.options.background) {
-      const Position at(state, x, y, position);
-      // Every position has a sequence of its own: a part of one pixel's would not spread evenly.
-      const PathLight light = state.integrator->trace(point, at.x, at.y, at.index, k / positions, rays);
+    if (const PathLight* light = samples.at(k, until)) {
       for (std::size_t p = 0; p < paths; ++p) {
-        const glm::dvec3 value(light[std::size_t(sums.paths[p])]);
+        const glm::dvec3 value((*light)[std::size_t(sums.paths[p])]);
         for (int c = 0; c < 3; ++c) row[3 * p + std::size_t(c)] += value[c];
         round += value;
       }
@@ -164,10 +200,12 @@ void tracePixel(TracerState& state, int x, int y, std::uint32_t from, std::uint3
   for (std::size_t c = 0; positions > 1 && c < 3; ++c) sums.round[3 * pixel + c] = round[int(c)];
 }
 
-/// So many that a round takes a fifth of a second: tiles stay close to each other, and work can be followed.
+/// So many that a round takes a fifth of a second: tiles stay close to each other, and work can be followed. But no fewer than
+/// go fast (PixelSamples).
 std::uint32_t roundSamples(const TracerState& state) {
+  if (!(state.rate > 0.0)) return 1;
   const double samples = kRoundSeconds * state.rate / double(state.sums.pixelCount());
-  return std::uint32_t(std::clamp(samples, 1.0, double(kMaxRoundSamples)));
+  return std::uint32_t(std::clamp(samples, 16.0 * state.sums.positions, double(kMaxRoundSamples)));
 }
 
 }  // namespace

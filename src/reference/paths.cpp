@@ -9,18 +9,13 @@
 #include "reference/paths.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <new>
+
+#include "reference/paths_batch.h"
 
 namespace gloam::reference {
 namespace {
-
-// Pairs of random numbers: one for the picture, then so many a vertex.
-enum Pair : std::uint32_t { kLobes, kEnvironment, kEmitterPoint, kEmitter, kLampAndRoulette, kPairsAVertex };
-constexpr std::uint32_t kPixelPair = 0;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr std::size_t kFewLamps = 8;      // so many all shine on what the camera sees
 constexpr int kFirstRoulette = 4;         // vertices before it are always followed
@@ -29,74 +24,8 @@ constexpr float kSurestRoulette = 0.95f;  // so that a white furnace ends too
 float largest(const glm::vec3& v) {
   return std::max(v.x, std::max(v.y, v.z));
 }
-bool isBlack(const glm::vec3& v) {
-  return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f;
-}
 
 }  // namespace
-
-/// What a path carries from vertex to vertex.
-struct Paths::Lane {
-  PathLight* light;
-  std::uint32_t place;  // Sampler::place
-  Vertex vertex;
-  PointLobes lobes;
-  glm::vec3 origin;  // of rays that leave the vertex
-  glm::vec3 throughput;
-  EnvironmentSampler::Block block;
-  // The step by lobes.
-  glm::vec3 direction, step_throughput;
-  float pdf;  // 0: no step
-
-  void setUp(const glm::vec3& to_view) {
-    lobes = PointLobes(*vertex.lobes, vertex.normal, to_view);
-    origin = vertex.rayOrigin();
-  }
-};
-
-struct Paths::Batch {
-  std::size_t& rays;
-  std::vector<trace::LoggedRay>* log;
-  Sampler sampler;  // of the first sample; all share its scrambles
-  Lane* active[kLanes];
-  int count = 0;
-  int depth = 0;
-  bool same_vertex = false;  // all stand at one point that has no textures
-  Sources sources;
-  struct Shadow {
-    trace::Ray ray;
-    glm::vec3 light;
-    Lane* lane;
-  };
-  Shadow* shadows;  // room for all lanes
-  int shadow_count = 0;
-  EnvironmentSampler::Place skies[kLanes];  // where the active lanes' steps look
-
-  std::span<Lane*> all() { return {active, std::size_t(count)}; }
-  std::uint32_t number(Pair which) const { return 1u + std::uint32_t(depth) * kPairsAVertex + which; }
-  /// Random numbers of the active lanes.
-  void numbers(Pair which, LaneBits& x, LaneBits& y) const {
-    LaneBits places;
-    for (int i = 0; i < kLanes; ++i) places.at[i] = active[i < count ? i : 0]->place;
-    numbersOfLanes(sampler.scramble(number(which)), places, x, y);
-  }
-  void add(Lane& lane, LightPath direct, const glm::vec3& radiance) {
-    (*lane.light)[std::size_t(direct) + (depth > 0 ? 1u : 0u)] += radiance;
-  }
-  void push(Lane& lane, const glm::vec3& direction, float t_far, const glm::vec3& light) {
-    Shadow& shadow = shadows[shadow_count++];
-    shadow.ray.origin = lane.origin;
-    shadow.ray.direction = direction;
-    shadow.ray.t_near = 0.0f;
-    shadow.ray.t_far = t_far;
-    shadow.light = light;
-    shadow.lane = &lane;
-  }
-  void record(const trace::Ray& ray, bool occlusion) {
-    ++rays;
-    if (log) log->push_back({ray, occlusion});
-  }
-};
 
 Paths::Paths(const Scene& scene, const PosedScene& posed,
              std::shared_ptr<const EnvironmentSampler> environment, const ReferenceOptions& options,
@@ -120,115 +49,6 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
                bounces && light.emitter_indirect && !emitters_.empty()};
   last_depth_ = indirect_.any() ? options.bounces : 0;
 }
-
-// ---- Light, by sources ----------------------------------------------------------------------------------------------
-
-void Paths::castShadows(Batch& batch, LightPath direct) const {
-  for (int i = 0; i < batch.shadow_count; ++i) {
-    const Batch::Shadow& shadow = batch.shadows[i];
-    batch.record(shadow.ray, true);
-    if (!tracer_.occluded(shadow.ray)) batch.add(*shadow.lane, direct, shadow.light);
-  }
-  batch.shadow_count = 0;
-}
-
-void Paths::fromEnvironment(Batch& batch) const {
-  for (Lane* lane : batch.all()) {
-    const EnvironmentSampler::Sample sample = environment_->sample(lane->block);
-    if (!(sample.light.pdf > 0.0f) || glm::dot(lane->vertex.geometric_normal, sample.direction) <= 0.0f)
-      continue;
-    const PointLobes::Value lobes = lane->lobes.at(sample.direction);
-    const glm::vec3 light = lane->throughput * lobes.value * sample.light.radiance *
-                            (weight(sample.light.pdf, lobes.pdf) / sample.light.pdf);
-    if (!isBlack(light)) batch.push(*lane, sample.direction, kInfinity, light);
-  }
-  castShadows(batch, kEnvironmentDirect);
-}
-
-void Paths::fromEmitters(Batch& batch) const {
-  const Sampler::Scramble which = batch.sampler.scramble(batch.number(kEmitter)),
-                          at_point = batch.sampler.scramble(batch.number(kEmitterPoint));
-  for (Lane* lane : batch.all()) {
-    const glm::vec2 u = Sampler::unit(Sampler::numbers(at_point, lane->place));
-    const Emitters::Sample sample = emitters_.sample(Sampler::numbers(which, lane->place).x, u);
-    const glm::vec3 between = sample.position - lane->vertex.position;
-    const float squared = glm::dot(between, between);
-    if (isBlack(sample.radiance) || !(squared > 0.0f)) continue;
-    const glm::vec3 direction = between * (1.0f / std::sqrt(squared));
-    const float cosine = glm::dot(sample.normal, direction);
-    const float pdf = Emitters::solidAnglePdf(sample.area_pdf, squared, std::abs(cosine));
-    if (!(pdf > 0.0f) || glm::dot(lane->vertex.geometric_normal, direction) <= 0.0f) continue;
-    const PointLobes::Value lobes = lane->lobes.at(direction);
-    const glm::vec3 light = lane->throughput * lobes.value * sample.radiance * (weight(pdf, lobes.pdf) / pdf);
-    // To just before the triangle, on the side from which it is seen.
-    const glm::vec3 end = sample.position - std::copysign(sample.ray_offset, cosine) * sample.normal;
-    const glm::vec3 way = end - lane->origin;
-    const float length = std::sqrt(glm::dot(way, way));
-    if (!isBlack(light) && length > 0.0f) batch.push(*lane, way * (1.0f / length), length, light);
-  }
-  castShadows(batch, kEmitterDirect);
-}
-
-// ---- Light, by lamps ------------------------------------------------------------------------------------------------
-
-glm::vec3 Paths::lampLight(const Lane& lane, const Lamp::Arriving& from) {
-  if (glm::dot(lane.vertex.geometric_normal, from.to_lamp) <= 0.0f || isBlack(from.irradiance))
-    return glm::vec3(0.0f);
-  return from.irradiance * lane.lobes.at(from.to_lamp).value;
-}
-
-void Paths::pushLamp(Batch& batch, Lane& lane, const Lamp::Arriving& from, const glm::vec3& light) {
-  if (from.distance == kInfinity) return batch.push(lane, from.to_lamp, kInfinity, lane.throughput * light);
-  const glm::vec3 way = lane.vertex.position + from.distance * from.to_lamp - lane.origin;
-  const float length = std::sqrt(glm::dot(way, way));
-  const glm::vec3 direction = length > 0.0f ? way * (1.0f / length) : from.to_lamp;
-  batch.push(lane, direction, length, lane.throughput * light);
-}
-
-void Paths::fromAllLamps(Batch& batch) const {
-  for (const Lamp& lamp : lamps_) {
-    Lamp::Arriving from;
-    glm::vec3 light(0.0f);
-    for (int i = 0; i < batch.count; ++i) {
-      Lane& lane = *batch.active[i];
-      if (i == 0 || !batch.same_vertex) {
-        from = lamp.at(lane.vertex.position);
-        light = lampLight(lane, from);
-      }
-      if (!isBlack(light)) pushLamp(batch, lane, from, light);
-    }
-    castShadows(batch, kLocalDirect);
-  }
-}
-
-// One of many, by what it would give without shadow. What is left of the number chooses on.
-void Paths::fromOneLamp(Batch& batch) const {
-  const Sampler::Scramble scramble = batch.sampler.scramble(batch.number(kLampAndRoulette));
-  for (Lane* lane : batch.all()) {
-    float u = Sampler::unit(Sampler::numbers(scramble, lane->place)).x, total = 0.0f;
-    glm::vec3 chosen(0.0f);
-    Lamp::Arriving chosen_from;
-    for (const Lamp& lamp : lamps_) {
-      const Lamp::Arriving from = lamp.at(lane->vertex.position);
-      const glm::vec3 light = lampLight(*lane, from);
-      const float size = light.r + light.g + light.b;
-      if (!(size > 0.0f)) continue;
-      total += size;
-      const float share = size / total;
-      if (u < share) {
-        chosen = light / size;
-        chosen_from = from;
-        u /= share;
-      } else {
-        u = (u - share) / (1.0f - share);
-      }
-    }
-    if (total > 0.0f) pushLamp(batch, *lane, chosen_from, chosen * total);
-  }
-  castShadows(batch, kLocalDirect);
-}
-
-// ---- The walk -------------------------------------------------------------------------------------------------------
 
 void Paths::chooseSteps(Batch& batch) const {
   LaneBits bits_x, bits_y;
