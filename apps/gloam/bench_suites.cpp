@@ -6,6 +6,7 @@
 #include <math/sh_batch.h>
 #include <math/sh_bench.h>
 #include <math/sh_exp_errors.h>
+#include <reference/reference_bench.h>
 #include <techniques/prt/prt_bake_bench.h>
 
 #include <thread>
@@ -91,8 +92,40 @@ int benchBaking(const std::string& scene_name, Console& console) {
   return kDone;
 }
 
+int benchReferencePaths(const std::string& scene_name, Console& console) {
+  const Scene scene = loadSceneToDraw({.name = scene_name}, console);
+  const Environment environment = chooseEnvironment(scene, {}, console);
+  const PosedScene posed = pose(scene, 0.0f);
+  const PosedCamera camera = chooseCamera(posed, {}, console);
+  console.release();
+  const ReferenceBench result = benchReference(scene, posed, camera, environment, {});
+  if (!console.json) {
+    console.print(
+        fmt::format("{}: {} triangles, {} points, {} samples, {:.3g} rays a round, {} rounds, all cores",
+                    scene_name, countText(result.triangles), countText(result.points), result.samples,
+                    double(result.rays), result.rounds));
+    console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
+    console.print(fmt::format("paths           {:8.2f} Mrays/s", result.paths_mrays_s));
+    console.print(fmt::format("ratio           {:8.3f}", result.ratio));
+    return kDone;
+  }
+  console.print(jsonText({{"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
+                          {"scene", scene_name},
+                          {"triangles", result.triangles},
+                          {"points", result.points},
+                          {"samples", result.samples},
+                          {"rays", result.rays},
+                          {"rounds", result.rounds},
+                          {"bare_mrays_s", result.bare_mrays_s},
+                          {"paths_mrays_s", result.paths_mrays_s},
+                          {"ratio", result.ratio}}));
+  return kDone;
+}
+
 constexpr BenchSuite kSuites[] = {
     {"sh", "spherical harmonics on the CPU", benchSphericalHarmonics},
+    {"reference", "the path tracer's ray rate against that of the tracing library alone",
+     benchReferencePaths},
     {"bake", "the baker's ray rate against that of the tracing library alone", benchBaking},
 };
 
