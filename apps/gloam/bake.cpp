@@ -163,6 +163,7 @@ const Verb kBakeVerb = {
     "gloam bake bunny.obj --ground -o bunny.glb | with a floor, two bounces, order 5\n"
     "gloam bake builtin:cornell --bounces 6 --order 4 --half -o cornell.glb | more bounces, a smaller file\n"
     "gloam bake statue.glb --estimate | how much memory and how large a file\n"
+    "gloam bake spheres statue.glb | fits spheres instead, for what moves: gloam bake spheres --help\n"
     "gloam bake statue.glb -o statue_prt.glb | after Ctrl-C the same command goes on where it stopped\n",
     declareBake};
 

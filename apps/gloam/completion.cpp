@@ -77,13 +77,30 @@ std::string verbCase(const CLI::App& app, const std::string& name) {
       name, values, joined(flags), action(positional));
 }
 
+/// How the script calls a verb: "bake_spheres".
+std::string caseOf(std::string name) {
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
 std::string bashScript() {
   std::vector<std::string> names = {"--help", "--version"};
-  std::string cases;
+  std::string cases, two_words;
   for (const Verb* verb : verbs()) {
-    names.emplace_back(verb->name);
+    const std::string name = verb->name;
+    const std::size_t space = name.find(' ');
+    if (space == std::string::npos) {
+      names.push_back(name);
+    } else {  // "bake spheres": its second word completes where the first one's argument does
+      const std::string second = name.substr(space + 1);
+      two_words += fmt::format(
+          "  if [[ $verb == {} ]]; then\n"
+          "    if [[ ${{COMP_WORDS[2]-}} == {} && ${{#typed[@]}} -gt 3 ]]; then verb={}; "
+          "elif [ ${{#typed[@]}} -eq 3 ]; then _gloam_words {}; fi\n  fi\n",
+          name.substr(0, space), second, caseOf(name), second);
+    }
     Console unused;
-    cases += verbCase(*declareVerb(*verb, unused).app, verb->name);
+    cases += verbCase(*declareVerb(*verb, unused).app, caseOf(name));
   }
   // Bash breaks words at colons: what stands before the last one is taken off the answers again.
   return "# bash completion for gloam, made by `gloam completion bash`\n"
@@ -99,8 +116,7 @@ std::string bashScript() {
          "  word=${typed[-1]} previous=${typed[-2]}\n"
          "  COMPREPLY=()\n"
          "  if [ ${#typed[@]} -le 2 ]; then _gloam_words '" +
-         joined(names) +
-         "'; return; fi\n"
+         joined(names) + "'; return; fi\n" + two_words +
          "  _gloam_verb\n"
          "  if [[ $word == *:* && $COMP_WORDBREAKS == *:* ]]; then\n"
          "    local cut=\"${word%\"${word##*:}\"}\" i\n"

@@ -63,7 +63,7 @@ std::string examples(const char* lines) {
 std::string overallHelp() {
   std::string out =
       "gloam " GLOAM_VERSION ": real-time soft global illumination\n\n  gloam VERB [options]\n\nVerbs\n";
-  for (const Verb* verb : verbs()) out += fmt::format("  {:<12}{}\n", verb->name, verb->summary);
+  for (const Verb* verb : verbs()) out += fmt::format("  {:<14}{}\n", verb->name, verb->summary);
   out += "\n`gloam VERB --help` shows options and examples; `gloam --version` the version. To begin with:\n";
   out += examples(
       "gloam render builtin:cornell -o cornell.png\n"

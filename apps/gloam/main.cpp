@@ -54,6 +54,11 @@ int dispatch(const std::vector<std::string>& arguments, Console& console) {
     console.print("gloam " GLOAM_VERSION);
     return kDone;
   }
+  if (arguments.size() > 1) {  // a verb of two words; a file of the second's name is ./spheres
+    if (const Verb* verb = findVerb(first + " " + arguments[1])) {
+      return runVerb(*verb, {arguments.begin() + 2, arguments.end()}, console);
+    }
+  }
   const Verb* verb = findVerb(first);
   if (verb == nullptr) {
     std::vector<std::string> names;

@@ -13,6 +13,7 @@
 #include "scene_inputs.h"
 #include "settings_file.h"
 #include "show.h"
+#include "spheres_overlay.h"
 #include "spheres_run.h"
 #include "technique_choice.h"
 #include "timings.h"
@@ -111,11 +112,13 @@ int runRender(RenderChoice choice, Console& console) {
   stage.options.timings = console.json;
   renderer.setScene(stage.scene);
   renderer.setEnvironment(stage.environment);
-  if (stage.technique->needs_spheres) {
-    const int count = stage.options.settings.integer("spheres");
-    renderer.setSpheres(stage.scene, spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache,
-                                                       console, count));
+  SceneSpheres spheres;
+  if (stage.technique->needs_spheres || choice.layer == kSpheresLayer) {
+    const int count =
+        stage.technique->needs_spheres ? stage.options.settings.integer("spheres") : SphereOptions{}.count;
+    spheres = spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache, console, count);
   }
+  if (stage.technique->needs_spheres) renderer.setSpheres(stage.scene, spheres);
 
   DisplayOptions display = displayOf(choice.display);
   Timings timings;
@@ -135,13 +138,18 @@ int runRender(RenderChoice choice, Console& console) {
       renderer.setEnvironment(turned);
     }
     const auto started = std::chrono::steady_clock::now();
-    const RenderedFrame frame = renderer.render(posed, camera, stage.options);
+    RenderedFrame frame = renderer.render(posed, camera, stage.options);
     timings.add(
         frame, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count());
     for (const std::string& warning : frame.warnings) {
       if (std::ranges::find(warned, warning) == warned.end()) console.remark(warned.emplace_back(warning));
     }
     holdExposure(display, frame.layers);
+    if (choice.layer == kSpheresLayer) {
+      const Image drawn =
+          spheresPicture(frame.layers, poseSpheres(spheres, stage.scene, posed), camera, display);
+      frame.layers.add(kSpheresLayer, {"R", "G", "B"}, drawn);
+    }
     output->write(frame.layers, display);
     console.release();
   }

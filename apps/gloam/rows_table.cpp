@@ -78,10 +78,15 @@ constexpr Row kPrecomputedTransfer[] = {
 };
 
 constexpr Row kSphereSets[] = {
-    {"SS-1", "A closed mesh bounded by k spheres with little volume outside it; every surface point covered"},
-    {"SS-2", "Sphere sets that follow skins and animation; open meshes get an answer too"},
+    {"SS-1", "A closed mesh bounded by k spheres with little volume outside it; every surface point covered",
+     kYes, "", "gloam bake spheres builtin:walker -k 26", "spheres: Spheres, Fit; cli_spheres: Spheres"},
+    {"SS-2", "Sphere sets that follow skins and animation; open meshes get an answer too", kYes, "",
+     "gloam render builtin:walker --show spheres --animate 0:4 -o walk.mp4",
+     "spheres: PoseSpheres, Spheres.OpenAndInsideOut"},
     {"SS-3",
-     "A hierarchy of spheres, cut for each cluster of receivers, blended so that shading stays continuous"},
+     "A hierarchy of spheres, cut for each cluster of receivers, blended so that shading stays continuous",
+     kPartly, "use by a technique; ratio vectors between cuts", "gloam bake spheres builtin:walker -k 40",
+     "spheres: SphereTree"},
 };
 
 constexpr Row kProxies[] = {

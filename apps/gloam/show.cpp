@@ -49,8 +49,8 @@ Image objectColors(const LayeredImage& frame) {
 }  // namespace
 
 const std::vector<std::string>& frameLayers() {
-  static const std::vector<std::string> kLayers = {"direct", "indirect", "normal",
-                                                   "depth",  "albedo",   "object"};
+  static const std::vector<std::string> kLayers = {"direct", "indirect", "normal",     "depth",
+                                                   "albedo", "object",   kSpheresLayer};
   return kLayers;
 }
 
@@ -66,6 +66,7 @@ Image lightOf(const LayeredImage& frame, const std::string& layer) {
 Image shownPicture(const LayeredImage& frame, const std::string& layer, const DisplayOptions& display) {
   if (layer == "normal") return normalColors(frame);
   if (layer == "depth") return depthGrey(frame);
+  if (layer == kSpheresLayer) return frame.image(layer, {"R", "G", "B"}, kFrame);
   if (layer == "albedo") return frame.image("albedo", {"R", "G", "B"}, kFrame);
   if (layer == "object") return objectColors(frame);
   return toneMapped(lightOf(frame, layer), display);

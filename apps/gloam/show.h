@@ -11,8 +11,11 @@
 
 namespace gloam::cli {
 
-/// Layers that every frame has: "direct", "indirect", "normal", "depth", "albedo", "object". Other names are images of a
-/// technique, which the renderer adds as RenderOptions::show.
+/// A layer that render adds on request: ready for a display, as spheresPicture() makes it.
+inline constexpr const char* kSpheresLayer = "spheres";
+
+/// Layers that every frame has: "direct", "indirect", "normal", "depth", "albedo", "object", and kSpheresLayer. Other names
+/// are images of a technique, which the renderer adds as RenderOptions::show.
 const std::vector<std::string>& frameLayers();
 bool isFrameLayer(const std::string& name);
 

@@ -40,6 +40,11 @@ class Completion(CliTest):
         self.assertIn("cornell", self.complete("gloam render builtin:co"))
         self.assertIn("mild", self.complete("gloam render x.glb --env sky:"))
 
+    def test_verbs_of_two_words(self):
+        self.assertEqual(self.complete("gloam bake sph"), ["spheres"])
+        self.assertEqual(self.complete("gloam bake spheres --eff"), ["--effort"])
+        self.assertEqual(self.complete("gloam bake spheres --bounce"), [])
+
     def test_files(self):
         self.path("model.glb").write_bytes(b"")
         self.assertIn("model.glb", self.complete("gloam info mod"))
