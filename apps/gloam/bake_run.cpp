@@ -3,11 +3,16 @@
 #include "bake_run.h"
 
 #include <fmt/core.h>
+#include <scene/animation.h>
 #include <techniques/prt/prt_bake_state.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <optional>
 
+#include <image/atomic_file.h>
+
+#include "json.h"
 #include "technique_choice.h"
 
 namespace gloam::cli {
@@ -55,14 +60,14 @@ std::optional<Scene> readKept(const fs::path& file) {
 }
 
 /// A checkpoint that cannot be used (of an older gloam, damaged) is nobody's but the cache's: it goes, the bake begins anew.
-Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& console) {
+Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& console, BakeReport& report) {
   std::error_code ignored;
   try {
     try {
-      return bakeTransfer(scene, options, console.progress());
+      return bakeTransfer(scene, options, console.progress(), &report);
     } catch (const Error&) {
       if (!fs::remove(options.checkpoint, ignored)) throw;
-      return bakeTransfer(scene, options, console.progress());
+      return bakeTransfer(scene, options, console.progress(), &report);
     }
   } catch (const Interrupted&) {
     throw Interrupted(options.checkpoint.empty()
@@ -71,18 +76,75 @@ Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& conso
   }
 }
 
+/// A bake's seconds lie beside it: nothing in the .glb itself depends on the machine that made it.
+fs::path timeFile(const fs::path& bake) {
+  return fs::path(bake).replace_extension(".json");
+}
+
+BakeTime readTime(const fs::path& bake) {
+  std::ifstream in(timeFile(bake), std::ios::binary);
+  const Json json = Json::parse(in, nullptr, false);
+  if (json.is_object() && json.contains("bake_seconds") && json["bake_seconds"].is_number()) {
+    return {json["bake_seconds"].get<double>(), ""};
+  }
+  return {std::nullopt, "taken from the cache, which does not tell how long it took"};
+}
+
+BakeTime timeOf(const BakeReport& report) {
+  if (report.resumed) return {std::nullopt, "interrupted and taken up again: not timed as a whole"};
+  return {report.first_pass_s + report.bounces_s, ""};
+}
+
+void writeTime(const BakeTime& time, const fs::path& bake) {
+  std::error_code ignored;
+  fs::remove(timeFile(bake), ignored);
+  if (!time.seconds) return;
+  const std::string text = Json{{"bake_seconds", *time.seconds}}.dump() + "\n";
+  AtomicFile file(timeFile(bake));
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+/// Who draws a scene that is not baked did not ask for more memory than this: its gloss stays unshadowed then.
+constexpr std::size_t kUnaskedBytes = std::size_t(1) << 30;
+
 }  // namespace
 
 std::string estimateText(const BakeEstimate& estimate) {
-  return fmt::format("{} vertices, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
-                     countText(estimate.vertices), countText(estimate.triangles), double(estimate.rays),
-                     bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
+  const std::string matrices = estimate.glossy_vertices > 0 ? fmt::format(", {} of them with matrices",
+                                                                          countText(estimate.glossy_vertices))
+                                                            : "";
+  return fmt::format("{} vertices{}, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
+                     countText(estimate.vertices), matrices, countText(estimate.triangles),
+                     double(estimate.rays), bytesText(double(estimate.memory_bytes)),
+                     bytesText(double(estimate.file_bytes)));
+}
+
+void remarkMotion(const Scene& scene, Console& console) {
+  if (!movesApart(scene)) return;
+  console.remark(
+      "animation moves meshes against one another: their transfer holds for the instant of the bake "
+      "(--time)");
+}
+
+BakeOptions drawingBake(const Scene& scene, float time_s, int bounces) {
+  BakeOptions options;
+  options.time_s = time_s;
+  options.kind = bounces > 0 ? TransferKind::kInterreflected : TransferKind::kShadowed;
+  if (bounces > 0) options.bounces = bounces;
+  options.glossy = GlossyMeshes::kShiny;
+  if (estimateBake(scene, options).memory_bytes > kUnaskedBytes) options.glossy = GlossyMeshes::kNone;
+  return options;
 }
 
 Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s, bool use_cache,
                      Console& console) {
-  BakeOptions options;
-  options.time_s = time_s;
+  BakeTime unused;
+  return bakeForDrawing(scene, place, drawingBake(scene, time_s), use_cache, console, &unused);
+}
+
+Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions options, bool use_cache,
+                     Console& console, BakeTime* time) {
   const BakeEstimate estimate = estimateBake(scene, options);
   const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
   fs::path file;
@@ -92,19 +154,24 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s,
     if (std::optional<Scene> kept = readKept(file)) {
       kept->name = scene.name;
       kept->environment = scene.environment;
+      *time = readTime(file);
       console.remark(fmt::format("{}: transfer taken from {}", place, file.string()));
       return *std::move(kept);
     }
     options.checkpoint = *folder / (key + ".checkpoint");
   }
   console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate)));
+  remarkMotion(scene, console);
   console.release();
-  Scene baked = bakeResumed(scene, options, console);
+  BakeReport report;
+  Scene baked = bakeResumed(scene, options, console, report);
+  *time = timeOf(report);
   console.endProgress();
   baked.environment = scene.environment;
   if (folder) {
     try {
       writeGlb(baked, file);
+      writeTime(*time, file);
       console.remark(fmt::format("bake kept as {} (--no-cache keeps none)", file.string()));
     } catch (const Error& error) {
       console.remark(fmt::format("the bake is not kept: {}", error.what()));

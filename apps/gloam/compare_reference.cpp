@@ -161,19 +161,12 @@ LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& par
   return light;
 }
 
-std::optional<double> relativeNoise(const ReferencePicture& reference, const Image& mask) {
-  if (reference.layers.find("variance") == nullptr || reference.samples.value_or(0) < 2) return std::nullopt;
-  const std::vector<std::string> rgb = {"R", "G", "B"};
-  const Image variance = reference.layers.image("variance", rgb, reference.file.string());
-  const Image light = reference.layers.image("", rgb, reference.file.string());
-  double variances = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < light.pixels.size(); ++i) {
-    if (mask.pixels[i / 3] == 0.0f) continue;
-    variances += double(variance.pixels[i]);
-    squares += double(light.pixels[i]) * double(light.pixels[i]);
-  }
-  if (squares <= 0.0) return std::nullopt;
-  return std::sqrt(variances / squares);
+std::optional<double> relativeNoise(const ReferencePicture& reference) {
+  const Image light = reference.layers.image("", {"R", "G", "B"}, reference.file.string());
+  double sum = 0.0, squares = 0.0;
+  for (const float value : light.pixels) sum += double(value), squares += double(value) * double(value);
+  if (!reference.noise || !std::isfinite(*reference.noise) || squares <= 0.0) return std::nullopt;
+  return *reference.noise * sum / std::sqrt(squares * double(light.pixels.size()));
 }
 
 Image surfaceMask(const ReferencePicture& reference) {

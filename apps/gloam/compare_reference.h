@@ -44,9 +44,9 @@ ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOpti
 /// objects where the background is drawn, tell where a surface is seen.
 LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part);
 
-/// The relative error that noise alone makes of the whole picture: root of the variances' sum over the picture's squares,
-/// where the mask is 1. Nothing where the reference does not hold its variance.
-std::optional<double> relativeNoise(const ReferencePicture& reference, const Image& mask);
+/// The relative error ||a - b|| / ||b|| that noise alone is expected to make of all light: PathTracer::noise() is relative
+/// to the mean, this to the root mean square. Nothing where the file does not tell.
+std::optional<double> relativeNoise(const ReferencePicture& reference);
 
 /// One channel: 1 where a surface is seen, as `gloam diff --foreground` finds it. Throws Error where none is.
 Image surfaceMask(const ReferencePicture& reference);

@@ -6,17 +6,16 @@
 #include "compare_run.h"
 
 #include <fmt/core.h>
-#include <image/atomic_file.h>
 #include <image/tonemap.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "compare_folder.h"
 #include "compare_page.h"
 #include "compare_reference.h"
 #include "compare_results.h"
 #include "compare_stage.h"
-#include "output.h"
 #include "spheres_run.h"
 #include "verb.h"
 
@@ -36,34 +35,6 @@ Progress stretch(const Progress& whole, double from, double to) {
     };
   }
   return part;
-}
-
-/// The folder that everything goes to; made when the first file is written, and only its last part.
-class CompareFolder {
- public:
-  explicit CompareFolder(fs::path path) : path_(std::move(path)) {
-    std::error_code ignored;
-    if (fs::exists(path_, ignored) && !fs::is_directory(path_, ignored)) {
-      throw Error(path_.string(), "is a file; expected a folder to write to");
-    }
-  }
-  void make() const {
-    std::error_code error;
-    if (fs::is_directory(path_, error)) return;
-    fs::create_directory(path_, error);
-    if (error) throw Error(path_.string(), fmt::format("cannot make this folder: {}", error.message()));
-  }
-  fs::path file(const std::string& name) const { return path_ / name; }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-void writeText(const fs::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
 }
 
 /// Measures of one layer of a pair of files, and the FLIP map for the page.
@@ -88,11 +59,20 @@ struct Comparison {
   ReferencePicture reference;
   CompareResults results;
   Page page;
-  std::vector<Coverage> parts;  ///< of page.pictures that are references
+  std::vector<std::optional<SceneSpheres>> spheres;  ///< of contenders that need them
 };
 
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
   return work.folder.file(fmt::format("reference_{}.exr", contender.technique->name));
+}
+
+void haveSpheres(Comparison& work, Console& console) {
+  for (const Contender& contender : work.contenders) {
+    std::optional<SceneSpheres>& spheres = work.spheres.emplace_back();
+    if (!contender.technique->needs_spheres) continue;
+    spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
+                                contender.settings.integer("spheres"));
+  }
 }
 
 void drawAll(Comparison& work, const Progress& progress, Console& console) {
@@ -100,10 +80,7 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
   const double count = double(work.contenders.size());
   for (std::size_t i = 0; i < work.contenders.size(); ++i) {
     const Contender& contender = work.contenders[i];
-    std::optional<SceneSpheres> spheres;
-    if (contender.technique->needs_spheres)
-      spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
-                                  contender.settings.integer("spheres"));
+    const std::optional<SceneSpheres>& spheres = work.spheres[i];
     Drawn drawn = drawContender(work.stage, work.choice, contender, spheres ? &*spheres : nullptr, background,
                                 stretch(progress, double(i) / count, double(i + 1) / count));
     work.folder.make();
@@ -121,6 +98,8 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
     if (contender.technique->needs_bake) {
       result.bake_seconds = work.stage.bake_seconds;
       result.bake_note = work.stage.bake_note;
+    } else if (contender.technique->needs_spheres) {
+      result.bake_note = "spheres are fitted beforehand, once a model";
     }
     result.covers = both(contender.technique->covers, work.stage.in_scene);
     result.missing = without(work.stage.in_scene, contender.technique->covers);
@@ -138,7 +117,7 @@ PagePicture lightPicture(const LayeredImage& light, const std::string& label) {
 }
 
 void measureAll(Comparison& work, const Image& mask, const Progress& progress) {
-  work.results.reference_relative_noise = relativeNoise(work.reference, mask);
+  work.results.reference_relative_noise = relativeNoise(work.reference);
   const double count = double(work.contenders.size());
   for (std::size_t i = 0; i < work.contenders.size(); ++i) {
     if (progress.stopRequested()) {
@@ -198,8 +177,8 @@ void writeAll(Comparison& work) {
   work.page.coverage = work.reference.layers.image("", {"A"}, "reference");
   const float found = std::round(4.0f * autoExposureStops(meanLog2Luminance(light))) / 4.0f;
   work.page.exposure_stops = std::clamp(work.choice.exposure_stops.value_or(found), -8.0f, 8.0f);
-  writeText(work.folder.file("results.json"), jsonText(json) + "\n");
-  writeText(work.folder.file("results.csv"), resultsCsv(work.results));
+  work.folder.writeText("results.json", jsonText(json) + "\n");
+  work.folder.writeText("results.csv", resultsCsv(work.results));
   writePage(work.page, work.folder.file("index.html"));
 }
 
@@ -281,6 +260,7 @@ int runCompare(CompareChoice choice, Console& console) {
                   {}};
   if (!work.choice.reference.empty()) checkGivenReference(work);
   bakeCompareStage(work.stage, work.choice, work.contenders, console);
+  haveSpheres(work, console);
   work.results.scene = work.choice.scene.name;
   work.results.environment = work.stage.environment.name;
   work.results.size = fmt::format("{}x{}", work.choice.view.size.x, work.choice.view.size.y);

@@ -45,6 +45,8 @@ int runVerb(const Verb& verb, std::vector<std::string> arguments, Console& conso
 }
 
 int dispatch(const std::vector<std::string>& arguments, Console& console) {
+  console.command = "gloam";
+  for (const std::string& argument : arguments) console.command += " " + shellWord(argument);
   const std::string first = arguments.empty() ? "--help" : arguments.front();
   if (first == "--help" || first == "-h") {
     console.print(overallHelp());

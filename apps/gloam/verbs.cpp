@@ -6,13 +6,13 @@
 
 namespace gloam::cli {
 
-extern const Verb kRenderVerb, kBakeVerb, kBakeSpheresVerb, kReferenceVerb, kDiffVerb, kInfoVerb, kListVerb,
-    kSceneVerb, kBenchVerb, kCompletionVerb;
+extern const Verb kRenderVerb, kBakeVerb, kBakeSpheresVerb, kCompareVerb, kReferenceVerb, kDiffVerb,
+    kInfoVerb, kListVerb, kSceneVerb, kBenchVerb, kCompletionVerb;
 
 std::span<const Verb* const> verbs() {
   static constexpr const Verb* kVerbs[] = {
-      &kRenderVerb, &kBakeVerb, &kBakeSpheresVerb, &kReferenceVerb, &kDiffVerb,
-      &kInfoVerb,   &kListVerb, &kSceneVerb,       &kBenchVerb,     &kCompletionVerb,
+      &kRenderVerb, &kBakeVerb, &kBakeSpheresVerb, &kCompareVerb, &kReferenceVerb,  &kDiffVerb,
+      &kInfoVerb,   &kListVerb, &kSceneVerb,       &kBenchVerb,   &kCompletionVerb,
   };
   return kVerbs;
 }

@@ -39,7 +39,8 @@ class Compared(CliTest):
         cls.addClassCleanup(shutil.rmtree, cls.shared, ignore_errors=True)
         cls.env = dict(os.environ, XDG_CACHE_HOME=str(cls.shared / "cache"), GLOAM_VALIDATION="1")
         baked_box(cls.shared, cls.env)
-        cls.arguments = ["compare", "box.glb", "--techniques", TECHNIQUES, *QUICK, "-o", "out"]
+        cls.scene = str(cls.shared / "box.glb")
+        cls.arguments = ["compare", cls.scene, "--techniques", TECHNIQUES, *QUICK, "-o", "out"]
         cls.process = subprocess.run([GLOAM, *cls.arguments, "--json"], cwd=cls.shared, env=cls.env, capture_output=True,
                                      text=True, timeout=300, check=False)
         assert cls.process.returncode == 0, cls.process.stderr
@@ -53,7 +54,7 @@ class Compared(CliTest):
 class Results(Compared):
     def test_shape_that_programs_read(self):
         self.assertLessEqual({"scene", "environment", "bounces", "size", "device", "techniques"}, set(self.results))
-        self.assertEqual((self.results["scene"], self.results["size"], self.results["bounces"]), ("box.glb", "40x32", 1))
+        self.assertEqual((self.results["scene"], self.results["size"], self.results["bounces"]), (self.scene, "40x32", 1))
         self.assertEqual([technique["name"] for technique in self.results["techniques"]], ["irradiance", "prt", "prt"])
         for technique in self.results["techniques"]:
             for layer in technique, technique["direct"], technique["indirect"]:

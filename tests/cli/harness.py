@@ -15,7 +15,7 @@ import unittest
 
 GLOAM = os.environ["GLOAM"]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-VERBS = ["render", "bake", "reference", "diff", "info", "list", "scene", "bench", "completion"]
+VERBS = ["render", "bake", "compare", "reference", "diff", "info", "list", "scene", "bench", "completion"]
 SMALL = ["--size", "48x32"]
 BOX = "builtin:cornell?detail=0.25"
 
@@ -118,8 +118,8 @@ def triangle(positions=None, indices=(0, 1, 2)):
     return document, vertex_bytes + index_bytes
 
 
-def spinning_triangle():
-    """A .glb whose triangle moves 4 m along x within 1 s, with a camera that looks at the beginning."""
+def moving_triangle():
+    """(document, binary) of a triangle that moves 4 m along x within 1 s, with a camera that looks at the beginning."""
     document, binary = triangle([(-1, -1, 0), (1, -1, 0), (0, 1, 0)])
     start = len(binary)
     binary += struct.pack("<2f", 0, 1) + struct.pack("<6f", 0, 0, 0, 4, 0, 0)
@@ -134,7 +134,12 @@ def spinning_triangle():
     document["cameras"] = [{"name": "front", "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}]
     document["nodes"].append({"camera": 0, "translation": [0, 0, 4]})
     document["scenes"][0]["nodes"] = [0, 1]
-    return glb(document, binary)
+    return document, binary
+
+
+def spinning_triangle():
+    """That as a .glb."""
+    return glb(*moving_triangle())
 
 
 def hdr(width=4, height=2, pixel=(128, 128, 128, 129)):

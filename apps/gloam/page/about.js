@@ -6,13 +6,14 @@ function sentence() {
   if (ranked.length === 0) return '';
   const say = ({technique, error}, verb) => `${technique.label}${verb} by ${percent(Math.sqrt(error))} (FLIP ${significant(technique.flip)}, ${milliseconds(technique.device_ms)} a frame)`;
   const [first, ...rest] = ranked;
-  const last = rest.length ? rest[rest.length - 1] : null;
-  return `${say(first, ' differs from its reference')}${last ? `, ${say(last, '')}` : ''}.`;
+  if (rest.length < 2) return `${say(first, ' differs from its reference')}${rest.length ? `, ${say(rest[0], '')}` : ''}.`;
+  return `Of ${ranked.length}, ${say(first, ' is nearest to its reference, off')}; ${say(rest[rest.length - 1], ' is off')}.`;
 }
 
 function buildHead() {
   byId('title').textContent = page.title;
-  const facts = [results.scene, results.environment ? `light: ${results.environment}` : 'no light from afar', `${results.size.replace('x', ' × ')} pixels`,
+  const leaf = (path) => path.split('/').pop();
+  const facts = [leaf(results.scene), results.environment ? `light: ${leaf(results.environment)}` : 'no light from afar', `${results.size.replace('x', ' × ')} pixels`,
     `${results.bounces} ${results.bounces === 1 ? 'bounce' : 'bounces'}`, results.device];
   byId('facts').append(...facts.map((fact) => make('span', {}, fact)));
   byId('headline').textContent = sentence();
@@ -32,8 +33,8 @@ function buildAbout() {
   const about = byId('about');
   about.append(make('p', {}, 'Each technique is held against a path-traced reference of the same scene, camera, light and materials that holds only the light '
     + 'which the technique covers. The light behind the scene is left out of pictures and measures.'));
-  const facts = [['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light: less is chance`]] : []),
-    ...(results.environment_order > 0 ? [['light', `the environment’s projection to ${results.environment_order} bands of spherical harmonics`]] : []),
+  const facts = [['scene', results.scene], ...(results.environment ? [['light', results.environment]] : []), ['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light: less is chance`]] : []),
+    ...(results.environment_order > 0 ? [['its light', `the environment’s projection to ${results.environment_order} bands of spherical harmonics`]] : []),
     ['page', page.shrink > 1 ? `pictures here at 1/${page.shrink} of their size; all measures are of the full size` : 'pictures in full size, linear half floats'],
     ['gloam', results.version]];
   about.append(make('dl', {}, facts.flatMap(([term, text]) => [make('dt', {}, term), make('dd', {}, text)])));

@@ -30,7 +30,7 @@ function arrange() {
   else panes = page.pictures.map((_, i) => new Pane([i]));
   stage.classList.toggle('single', panes.length === 1);
   stage.classList.toggle('few', panes.length <= 2);
-  stage.style.setProperty('--columns', panes.length <= 4 ? Math.max(panes.length, 2) : panes.length <= 6 ? 3 : 4);
+  stage.style.setProperty('--columns', panes.length <= 4 ? Math.max(panes.length, 2) : panes.length <= 6 || width > height ? 3 : 4);
   stage.replaceChildren(...panes.map((pane) => pane.figure));
   limitSingle();
   for (const pane of panes) pane.describe();
@@ -82,7 +82,8 @@ function buildControls() {
   byId('zoom-in').addEventListener('click', () => zoomAtProbe(1.5));
   byId('zoom-out').addEventListener('click', () => zoomAtProbe(1 / 1.5));
   byId('zoom-fit').addEventListener('click', fit);
-  state.left = 0, state.right = page.pictures[0].reference ?? 0;
+  const best = sortedTechniques()[0] ?? 0;  // the nearest, beside its reference
+  state.left = page.pictures.findIndex((picture) => picture.technique === best), state.right = page.pictures[state.left].reference;
   for (const side of ['left', 'right']) {
     const select = byId(`swipe-${side}`);
     select.append(...page.pictures.map((picture, i) => make('option', {value: i}, picture.label)));

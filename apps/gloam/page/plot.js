@@ -76,7 +76,7 @@ function drawNoise(svg, y, size) {
   const noise = state.layer === 'sum' ? results.reference.relative_noise : null;
   if (noise === null || !(y.at(noise) > size.top && y.at(noise) < size.height - size.bottom)) return;
   svg.append(make('svg:line', {class: 'floor', x1: size.left, x2: size.width - size.right, y1: y.at(noise), y2: y.at(noise)}),
-    make('svg:text', {class: 'axis', x: size.width - size.right, y: y.at(noise) - 5, 'text-anchor': 'end'}, 'noise of the reference'));
+    make('svg:text', {class: 'axis halo', x: size.left + 6, y: y.at(noise) - 5}, 'noise of the reference'));
 }
 
 function drawCurve(svg, points, x, y) {
