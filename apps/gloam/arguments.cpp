@@ -157,7 +157,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
   const std::string* nearest = nullptr;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t least =
+      (word.size() + 1) / 3 + 1;  // of two or three letters one may be wrong: "zsh" is no "bash"
   for (const std::string& name : names) {
     const std::size_t distance = editDistance(word, name);
     if (distance < least) least = distance, nearest = &name;
@@ -167,25 +168,26 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 
 Error usageError(const CLI::App& app, const CLI::ParseError& error) {
   const std::string text = error.what();
+  const std::string verb = app.get_name().substr(app.get_name().find(' ') + 1);  // of "gloam render"
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     const std::vector<std::string> extras = app.remaining();
     const std::string extra = extras.empty() ? "?" : extras.front();
-    if (!extra.starts_with('-')) return {app.get_name(), fmt::format("unexpected argument '{}'", extra)};
+    if (!extra.starts_with('-')) return {verb, fmt::format("unexpected argument '{}'", extra)};
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
     const std::string bare = extra.substr(0, extra.find('='));
-    return {app.get_name(), fmt::format("no option {}{}", bare, didYouMean(bare, names))};
+    return {verb, fmt::format("no option {}{}", bare, didYouMean(bare, names))};
   }
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const std::string what = text.substr(0, text.find(' '));
-    return {app.get_name(), fmt::format("{} is missing; {} --help shows examples", what, app.get_name())};
+    return {verb, fmt::format("{} is missing; {} --help shows examples", what, app.get_name())};
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    return {app.get_name(), fmt::format("{} needs a value", text.substr(0, text.find(':')))};
+    return {verb, fmt::format("{} needs a value", text.substr(0, text.find(':')))};
   }
-  return {app.get_name(), text};
+  return {verb, text};
 }
 
 }  // namespace gloam::cli

@@ -22,6 +22,7 @@ struct BakeChoice {
   BakeOptions options;
   std::string output, kind = "di";
   bool half_float = false, resume = true, estimate_only = false;
+  std::vector<const CLI::Option*> of_rays, of_bounces;  ///< options that some kinds have no use for
 };
 
 TransferKind kindOf(const std::string& kind) {
@@ -43,7 +44,19 @@ void checkOutput(const BakeChoice& choice) {
   if (fs::path(choice.output).extension() != ".glb") {
     throw Error(choice.output, "expected a name that ends in .glb");
   }
+  refuseOverwriting(choice.output, choice.scene.name);
   AtomicFile probe(choice.output);
+}
+
+void remarkUnusedOptions(const BakeChoice& choice, Console& console) {
+  const auto remark = [&](const std::vector<const CLI::Option*>& options) {
+    for (const CLI::Option* option : options) {
+      if (option->count() == 0) continue;
+      console.remark(fmt::format("{} has no effect on --kind {}", option->get_name(), choice.kind));
+    }
+  };
+  if (choice.kind != "di") remark(choice.of_bounces);
+  if (choice.kind == "du") remark(choice.of_rays);
 }
 
 Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& console, BakeReport& report) {
@@ -103,7 +116,9 @@ int runBake(BakeChoice choice, Console& console) {
   if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_prt.glb";
   choice.options.kind = kindOf(choice.kind);
   if (!choice.estimate_only) checkOutput(choice);
-  Scene scene = loadSceneToDraw(choice.scene, console);
+  const Scene scene = loadSceneToDraw(choice.scene, console);
+  remarkUnusedOptions(choice, console);
+  remarkMotion(scene, console);
   const BakeEstimate estimate = estimateBake(scene, choice.options);
   if (choice.estimate_only) {
     console.print(console.json ? jsonText(estimateJson(estimate)) : estimateText(estimate));
@@ -115,6 +130,7 @@ int runBake(BakeChoice choice, Console& console) {
   const Scene baked = bakeWithCheckpoint(scene, choice, console, report);
   console.endProgress();
   writeGlb(baked, choice.output, {.half_float = choice.half_float});
+  remarkLostLight(baked, console);
   printResult(choice, report, console);
   return kDone;
 }
@@ -122,17 +138,22 @@ int runBake(BakeChoice choice, Console& console) {
 void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
   const BakeOptions defaults;
   BakeOptions& options = choice.options;
-  const auto add = [&app](const char* name, int& value, Range range, const char* help) {
-    addInteger(app, name, value, range, "N", help)->default_str(std::to_string(value))->group("Transfer");
+  const auto add = [&app](const char* name, int& value, Range range, const char* help) -> CLI::Option* {
+    return addInteger(app, name, value, range, "N", help)
+        ->default_str(std::to_string(value))
+        ->group("Transfer");
   };
   addChoice(app, "--kind", choice.kind, {"du", "ds", "di"},
             "unshadowed, shadowed, or shadowed and interreflected")
       ->default_str(choice.kind)
       ->group("Transfer");
   add("--order", options.order, {3, 6}, "bands of spherical harmonics; N*N coefficients a vertex");
-  add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di");
-  add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
-  add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass");
+  choice.of_bounces.push_back(
+      add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di"));
+  choice.of_rays.push_back(
+      add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass"));
+  choice.of_bounces.push_back(
+      add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass"));
   addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
       ->default_str("0")
       ->group("Transfer");

@@ -110,7 +110,7 @@ int runInfo(const std::string& name, Console& console) {
 
 std::function<int()> declareInfo(CLI::App& app, Console& console) {
   const auto name = std::make_shared<std::string>();
-  addText(app, "FILE", *name, "SCENE", "a scene, a picture, an environment, builtin:NAME or sky:NAME")
+  addName(app, "FILE", *name, "SCENE", "a scene, a picture, an environment, builtin:NAME or sky:NAME")
       ->required();
   addConsoleOptions(app, console, true);
   return [name, &console] { return runInfo(*name, console); };

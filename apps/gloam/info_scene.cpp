@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "info.h"
+#include "scene/gltf_transfer.h"
 
 namespace gloam::cli {
 namespace {
@@ -88,7 +89,8 @@ Json transferJson(const Scene& scene) {
     floats += any->direct.size() + any->indirect.size();
   }
   if (any == nullptr) return nullptr;
-  return {{"order", any->order},
+  return {{"kind", transferKind(*any)},
+          {"order", any->order},
           {"coefficients", any->order * any->order},
           {"bounces", any->bounces},
           {"directions", any->directions},

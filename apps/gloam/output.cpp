@@ -114,6 +114,10 @@ std::unique_ptr<FrameOutput> openOutput(const OutputRequest& request) {
   const fs::path& path = request.path;
   const std::string extension = path.extension().string();
   std::error_code ignored;
+  if (extension.empty() && fs::exists(path, ignored) && !fs::is_directory(path, ignored)) {
+    throw Error(path.string(),
+                fmt::format("is no folder, and its name does not tell what to write; {}", kForms));
+  }
   if (fs::is_directory(path, ignored) || extension.empty() || !path.has_filename()) {
     return std::make_unique<PictureOutput>(request, path / "frame_####.png");
   }

@@ -7,6 +7,7 @@
 #include <image/atomic_file.h>
 
 #include "json.h"
+#include "output.h"
 #include "scene_inputs.h"
 #include "verb.h"
 
@@ -27,13 +28,11 @@ int runScene(WriteChoice choice, Console& console) {
   if (std::filesystem::path(choice.output).extension() != ".glb") {
     throw Error(choice.output, "expected a name that ends in .glb");
   }
+  refuseOverwriting(choice.output, choice.scene.name);
   AtomicFile{choice.output};  // throws now where the file cannot be written
   const Scene scene = loadSceneToDraw(choice.scene, console);
   writeGlb(scene, choice.output);
-  if (!scene.environment.empty()) {
-    console.remark(fmt::format("the scene's own light, {}, does not go into a .glb: give it by --env",
-                               scene.environment.name));
-  }
+  remarkLostLight(scene, console);
   std::size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) triangles += mesh.triangleCount();
   if (console.json) {

@@ -11,6 +11,7 @@ namespace gloam::cli {
 namespace {
 
 constexpr const char* kDefaultSky = "sky:mild";
+constexpr const char* kGroundName = "ground";  // as addGround calls its node
 constexpr float kDefaultFovDeg = 45.0f;
 
 std::string cameraNames(const PosedScene& posed) {
@@ -61,10 +62,26 @@ void addFramingCamera(Scene& scene) {
   scene.nodes.push_back(std::move(node));
 }
 
+/// What is baked cannot be given a floor any more, but may have one.
+void addGroundOnce(Scene& scene, const std::string& name, Console& console) {
+  const auto holdsTransfer = [](const Mesh& mesh) { return mesh.transfer != nullptr; };
+  if (std::ranges::none_of(scene.meshes, holdsTransfer)) {
+    if (scene.cameras.empty()) addFramingCamera(scene);
+    addGround(scene);
+    return;
+  }
+  const auto isGround = [](const Node& node) { return node.name == kGroundName; };
+  if (std::ranges::none_of(scene.nodes, isGround)) {
+    throw Error("--ground",
+                fmt::format("{} is baked without a floor; bake it anew with gloam bake --ground", name));
+  }
+  console.remark(fmt::format("--ground: {} holds its floor already", name));
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& app, SceneChoice& choice) {
-  CLI::Option* scene = addText(app, "SCENE", choice.name, "SCENE",
+  CLI::Option* scene = addName(app, "SCENE", choice.name, "SCENE",
                                "a .glb, .gltf, .obj, .ply, .off, .fbx or .3ds file, or builtin:NAME");
   if (choice.name.empty()) {
     scene->required();
@@ -75,7 +92,7 @@ void addSceneOptions(CLI::App& app, SceneChoice& choice) {
 }
 
 void addLightOptions(CLI::App& app, LightChoice& choice) {
-  addText(app, "--env", choice.environment, "LIGHT",
+  addName(app, "--env", choice.environment, "LIGHT",
           "light from far away: an equirectangular .exr or .hdr, a sky by name (sky:mild), or none")
       ->group("Light");
   addNumber(app, "--env-rotation", choice.rotation_deg, {-36000.0, 36000.0}, "DEGREES",
@@ -126,16 +143,17 @@ Scene loadSceneToDraw(const SceneChoice& choice, Console& console) {
   const bool any = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return !mesh.indices.empty(); });
   if (!any) throw Error(choice.name, "holds no triangles: nothing to draw");
   if (choice.ground) {
-    const bool baked =
-        std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.transfer != nullptr; });
-    if (baked)
-      throw Error("--ground",
-                  fmt::format("{} is baked without it; give --ground to gloam bake", choice.name));
-    if (scene.cameras.empty()) addFramingCamera(scene);
-    addGround(scene);
+    addGroundOnce(scene, choice.name, console);
   }
   console.remarks(choice.name, scene.warnings);
   return scene;
+}
+
+void remarkLostLight(const Scene& scene, Console& console) {
+  const std::string& name = scene.environment.name;
+  if (scene.environment.empty() || name.starts_with("sky:")) return;
+  console.remark(fmt::format("the scene's own light{} does not go into a .glb: give it by --env",
+                             name.empty() ? "" : fmt::format(", {},", name)));
 }
 
 Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console) {

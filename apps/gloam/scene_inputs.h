@@ -46,6 +46,9 @@ Scene loadSceneToDraw(const SceneChoice& choice, Console& console);
 /// The light that was asked for; else the scene's own; else, where the scene has no lamp either, a mild sky, and says so.
 Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console);
 
+/// Says so where the scene brings a light along that writeGlb() leaves out: all but skies by name.
+void remarkLostLight(const Scene& scene, Console& console);
+
 /// The camera that was asked for; else the scene's first; else one that shows all of it, and says so.
 PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Console& console);
 

@@ -58,6 +58,21 @@ class Scenes(CliTest):
         self.refuse("render", "a.xyz", says=["a.xyz", ".gltf"])
         self.refuse("info", "none.exr", says="none.exr")
 
+    def test_empty_names(self):
+        for verb in "render", "bake", "scene":
+            self.refuse(verb, "", says=["SCENE", "the name is empty"])
+        self.refuse("info", "", says=["FILE", "the name is empty"])
+
+    def test_mesh_files_that_claim_what_they_do_not_hold(self):
+        self.path("a.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+        self.path("a.ply").write_text("ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+                                      "property float y\nproperty float z\nend_header\n")
+        for name, words in ("a.off", ["face 0", "vertex 7"]), ("a.ply", ["4000000000", "bytes"]):
+            line = self.refuse("info", name)
+            if "without assimp" not in line:
+                for word in [name, *words]:
+                    self.assertIn(word, line)
+
     def test_no_normals_and_zero_area_are_drawn(self):
         document, binary = triangle([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0)], (0, 1, 2, 1, 1, 3))
         self.path("a.glb").write_bytes(glb(document, binary))
@@ -90,6 +105,7 @@ class Lights(CliTest):
     def test_unknown_sky(self):
         self.refuse("render", BOX, "--env", "sky:no-such", says=["no-such", "mild"])
         self.refuse("render", BOX, "--env", "none.exr", says="none.exr")
+        self.refuse("render", BOX, "--env", "", says=["--env", "empty"])
 
 
 class Numbers(CliTest):
@@ -132,6 +148,10 @@ class Outputs(CliTest):
     def test_unknown_extension_lists_the_known(self):
         self.refuse("render", BOX, "-o", "a.jpg", says=[".jpg", ".png", ".mp4"])
         self.refuse("render", BOX, "-o", "", says="--output")
+        self.path("plain").write_bytes(b"a file")
+        self.refuse("render", BOX, "-o", "plain", says=["plain", "no folder", ".png"])
+        if os.path.exists("/dev/full"):
+            self.refuse("render", BOX, "-o", "/dev/full", says=["/dev/full", "no folder"])
 
     def test_found_before_any_work(self):
         self.refuse("render", "/nowhere.glb", "-o", "no/such/a.png", says="no/such")
@@ -143,6 +163,13 @@ class Outputs(CliTest):
     def test_an_input_is_not_overwritten(self):
         self.path("probe.hdr").write_bytes(hdr())
         self.refuse("render", BOX, "--env", "probe.hdr", "-o", "probe.hdr", says="probe.hdr")
+        document, binary = triangle()
+        data = glb(document, binary)
+        self.path("a.glb").write_bytes(data)
+        for verb in "bake", "scene":
+            self.refuse(verb, "a.glb", "-o", "a.glb", says=["a.glb", "destroy the input"])
+            self.refuse(verb, "a.glb", "-o", "./a.glb", says="destroy the input")
+        self.assertEqual(self.path("a.glb").read_bytes(), data)
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
     def test_no_permission(self):

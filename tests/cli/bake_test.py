@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from harness import GLOAM, SMALL, CliTest, spinning_triangle
+from harness import GLOAM, SMALL, CliTest, glb, moving_triangle, spinning_triangle, triangle
 
 QUICK = ["--directions", "256", "--bounce-directions", "256", "--order", "3"]
 LONG = ["--directions", "8192", "--bounces", "1", "--bounce-directions", "256"]
@@ -31,10 +31,70 @@ class Bake(CliTest):
         light = []
         for kind in "du", "ds", "di":
             self.succeed("bake", SCENE, *QUICK, "--kind", kind, "-o", "a.glb")
+            self.assertEqual(self.succeed_json("info", "a.glb")["transfer"]["kind"],
+                             {"du": "unshadowed", "ds": "shadowed", "di": "interreflected"}[kind])
             self.succeed("render", "a.glb", *SMALL, "--env", "sky:uniform", "-o", "a.exr")
             light.append(self.means("a.exr"))
         self.assertLess(light[1]["G"], light[0]["G"], "shadows darken")
         self.assertGreater(light[2]["G"], light[1]["G"], "bounces brighten")
+
+    def test_options_without_effect_are_told(self):
+        line = "gloam: --{} has no effect on --kind {}".format
+        du = self.succeed("bake", SCENE, *QUICK, "--kind", "du", "--bounces", "5", "-o", "a.glb").err
+        for option in "bounces", "bounce-directions", "directions":
+            self.assertIn(line(option, "du"), du)
+        ds = self.succeed("bake", SCENE, *QUICK, "--kind", "ds", "-o", "a.glb").err
+        self.assertIn(line("bounce-directions", "ds"), ds)
+        self.assertNotIn("--directions has", ds)
+        self.assertNotIn("--bounces has", ds)
+        self.assertNotIn("no effect", self.succeed("bake", SCENE, *QUICK, "-o", "b.glb").err)
+        self.assertIn("baked with 3 bands", self.succeed("render", "b.glb", *SMALL, "--prt.order", "6", "-o", "a.png").err)
+        self.assertNotIn("bands", self.succeed("render", "b.glb", *SMALL, "--prt.order", "3", "-o", "a.png").err)
+
+    def test_a_floor_that_is_there_and_one_that_is_not(self):
+        document, binary = triangle()
+        self.path("a.glb").write_bytes(glb(document, binary))
+        self.succeed("bake", "a.glb", *QUICK, "--kind", "du", "-o", "bare.glb")
+        self.succeed("bake", "a.glb", *QUICK, "--kind", "du", "--ground", "-o", "floor.glb")
+        self.refuse("render", "bare.glb", *SMALL, "--ground", "-o", "a.png", says=["--ground", "bare.glb", "without a floor"])
+        again = self.succeed("render", "floor.glb", *SMALL, "--ground", "-o", "a.exr")
+        self.assertIn("holds its floor already", again.err)
+        self.succeed("render", "floor.glb", *SMALL, "-o", "b.exr")
+        self.assertEqual(self.path("a.exr").read_bytes(), self.path("b.exr").read_bytes())
+
+    def test_motion_of_baked_meshes_is_told(self):
+        document, binary = moving_triangle()
+        words = "holds for the instant of the bake"
+        self.path("one.glb").write_bytes(glb(document, binary))
+        self.assertNotIn(words, self.succeed("bake", "one.glb", *QUICK, "-o", "a.glb").err)
+        document["nodes"].append({"mesh": 0, "translation": [0, 5, 0]})
+        document["scenes"][0]["nodes"].append(len(document["nodes"]) - 1)
+        self.path("two.glb").write_bytes(glb(document, binary))
+        self.assertIn(words, self.succeed("bake", "two.glb", *QUICK, "-o", "a.glb").err)
+
+    def test_gloss_is_baked_where_something_mirrors(self):
+        scene = "builtin:bronze?detail=0.25"
+        result = self.succeed_json("bake", scene, *QUICK, "--bounces", "1", "-o", "a.glb")
+        self.assertGreater(result["points"], result["glossy_points"], "red and blue clay mirror nothing")
+        self.assertTrue(0.02 < result["cheap_error"] < 0.3, result["cheap_error"])
+        glossy = self.succeed_json("info", "a.glb")["transfer"]["glossy"]
+        self.assertEqual((glossy["light_order"], glossy["radiance_order"], glossy["exponent"]), (3, 3, None))
+        self.assertTrue(glossy["interreflected"])
+        light = {}
+        for choice in "matrix", "cheap", "unshadowed":
+            self.succeed("render", "a.glb", *SMALL, "--env", "sky:uniform", "--no-background", "--prt.glossy", choice, "-o", "a.exr")
+            light[choice] = self.means("a.exr", "direct")["G"], self.means("a.exr", "indirect")["G"]
+        self.assertLess(light["matrix"][0], 0.95 * light["unshadowed"][0], "gloss is shadowed")
+        self.assertGreater(light["matrix"][1], 1.2 * light["unshadowed"][1], "gloss reflects")
+        self.assertLess(abs(light["cheap"][0] / light["matrix"][0] - 1), 0.1)
+
+        self.assertEqual(self.succeed_json("bake", scene, *QUICK, "--glossy", "off", "-o", "b.glb")["glossy_points"], 0)
+        self.assertIsNone(self.succeed_json("info", "b.glb")["transfer"]["glossy"])
+        self.succeed("bake", scene, "--directions", "256", "--order", "4", "--kind", "ds", "--glossy", "on", "--glossy-order", "5",
+                     "--glossy-light-order", "3", "--bake-gloss", "6", "--half", "-o", "c.glb")
+        glossy = self.succeed_json("info", "c.glb")["transfer"]["glossy"]
+        self.assertEqual((glossy["light_order"], glossy["radiance_order"], glossy["exponent"]), (3, 5, 6))
+        self.assertFalse(glossy["interreflected"])
 
     def test_half_floats_halve_the_transfer(self):
         sizes = []
@@ -112,8 +172,11 @@ class Bake(CliTest):
 
     def test_bad_options(self):
         for option, value in ("--order", 2), ("--order", 7), ("--order", "x"), ("--directions", 0), ("--directions", 1e6), \
-                ("--bounces", 0), ("--bounces", 65), ("--threads", -1), ("--kind", "dx"), ("--time", "nan"):
+                ("--bounces", 0), ("--bounces", 65), ("--threads", -1), ("--kind", "dx"), ("--time", "nan"), \
+                ("--glossy", "yes"), ("--glossy-order", 7), ("--glossy-light-order", 2), ("--bake-gloss", 0):
             self.refuse("bake", SCENE, option, value, "-o", "a.glb", says=[option, value if value != 1e6 else "1000000"])
+        self.refuse("bake", SCENE, "--order", 4, "--glossy", "on", "--glossy-light-order", 5, "-o", "a.glb",
+                    says="glossy_light_order is 5; expected 3 to 4")
         self.refuse("bake", SCENE, "-o", "a.png", says=".glb")
         self.refuse("bake", SCENE, "-o", "no/a.glb", says="no/a.glb")
 

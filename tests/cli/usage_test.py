@@ -43,13 +43,18 @@ class Usage(CliTest):
         self.refuse("", says="no verb")
 
     def test_unknown_option_names_a_near_one(self):
-        self.refuse("render", "builtin:cornell", "--siez", "9", says=["gloam render", "--siez", "--size"])
+        self.refuse("render", "builtin:cornell", "--siez", "9", says=["gloam: render: ", "--siez", "did you mean --size"])
         self.refuse("list", "--frobnicate", says="--frobnicate")
         self.refuse("render", "builtin:cornell", "--irradiance.no_such", "1", says="--irradiance.no_such")
 
+    def test_words_that_are_far_are_not_proposed(self):
+        for command, far in (["completion", "zsh"], "did you mean"), (["bake", "builtin:cornell", "--kind", "xx"], "did you mean"):
+            self.assertNotIn(far, self.refuse(*command, says=command[-1]))
+        self.refuse("bake", "builtin:cornell", "--kind", "dx", says="did you mean du")
+
     def test_missing_argument(self):
         for verb in "render", "bake", "info", "scene":
-            self.refuse(verb, says=[f"gloam {verb}", "missing"])
+            self.refuse(verb, says=[f"gloam: {verb}: ", "missing"])
 
     def test_missing_value(self):
         self.refuse("render", "builtin:cornell", "--size", says=["--size", "value"])

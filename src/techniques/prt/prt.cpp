@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "math/sampling.h"
 #include "scene/transforms.h"
 #include "shaders/prt_shaders.h"
 #include "techniques/prt/prt_glossy.h"
@@ -19,42 +20,60 @@ namespace gloam::prt {
 
 namespace {
 
+/// Of the whole light; "auto" damps vertex by vertex (prt_vertices.comp.glsl).
 frame::Window windowOf(const std::string& name) {
   if (name == "hann") return frame::Window::kHann;
-  if (name == "lanczos") return frame::Window::kLanczos;
-  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
+  return name == "lanczos" ? frame::Window::kLanczos : frame::Window::kNone;
 }
 
-/// The light in each lit instance's axes, end to end.
-std::vector<glm::vec3> rotatedLights(const sh::ShRgb& light, const frame::GpuScene& scene,
-                                     const TransferBuffers& transfer) {
-  std::vector<glm::vec3> lights;
+/// The light in each lit instance's axes is added, end to end.
+void addRotatedLights(const sh::ShRgb& light, const frame::GpuScene& scene, const TransferBuffers& transfer,
+                      std::vector<glm::vec3>& lights) {
   for (const std::uint32_t i : transfer.litInstances()) {
     const glm::mat3 world_from_object = rotationFactor(glm::mat3(scene.instances()[i].world_from_object));
     const sh::ShRgb turned = sh::rotate(glm::transpose(world_from_object), light);
     lights.insert(lights.end(), turned.coefficients().begin(), turned.coefficients().end());
   }
-  return lights;
+}
+
+/// Whether a vertex can receive less than `window auto` grants it. It gathers the light's bands by a weight that is nowhere
+/// negative, so that light which is high enough everywhere cannot fall short: soft skies cost nothing.
+bool mayRing(const sh::ShRgb& light, const sh::ShRgb& soft) {
+  static const std::vector<glm::vec3> directions = sampling::fibonacciSphere(600);
+  return std::ranges::any_of(directions, [&](const glm::vec3& d) {
+    const glm::vec3 least = kLeastOfDamped * glm::max(sh::valueAt(soft, d), glm::vec3(0.0f));
+    return glm::any(glm::lessThan(sh::valueAt(light, d), least));
+  });
 }
 
 /// Adds "prt.vertices", once a chunk; every vertex's irradiance.
-gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const TransferBuffers& transfer, gpu::BufferRef lights) {
+gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene,
+                             const TransferBuffers& transfer, const sh::ShRgb& light, bool damping) {
+  const sh::ShRgb soft = sh::windowHann(light, float(light.order));
+  const bool damped = damping && mayRing(light, soft);
+  std::vector<glm::vec3> lights;
+  addRotatedLights(light, scene, transfer, lights);
+  VerticesParams params{.first_damped = static_cast<std::uint32_t>(lights.size())};
+  if (damped) addRotatedLights(soft, scene, transfer, lights);
+  const gpu::BufferRef light_buffer = graph.upload("prt.lights", lights);
   const auto output = graph.create("prt.vertex_light",
                                    gpu::BufferDesc{.bytes = transfer.outputVertices() * sizeof(VertexLight)});
   const gpu::Limits& limits = graph.device().limits();
   for (const TransferChunk& chunk : transfer.chunks()) {
+    params.block_count = chunk.block_count;
     const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
     const std::uint32_t rows = (chunk.block_count + columns - 1) / columns;
     graph.compute("prt.vertices", prt_vertices_spv)
         .specialize("coefficients", transfer.order() * transfer.order())
         .specialize("has_indirect", transfer.hasIndirect())
         .specialize("half_float", transfer.options().half_float)
+        .specialize("damped", damped)
         .read("blocks", chunk.blocks)
         .read("transfer_direct", chunk.direct)
         .read("transfer_indirect", chunk.indirect)
-        .read("lights", lights)
+        .read("lights", light_buffer)
         .write("vertex_light", output)
-        .push(chunk.block_count)
+        .push(params)
         .dispatch(columns, rows);
   }
   return output;
@@ -77,9 +96,9 @@ const TechniqueInfo& info() {
        .maximum = 6,
        .help = "bands to use; 0: all that are baked"},
       {.name = "window",
-       .default_value = std::string("none"),
+       .default_value = std::string("auto"),
        .choices = {"none", "hann", "lanczos", "auto"},
-       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"},
+       .help = "damping of ringing around small bright lights; auto: only where it shows"},
       {.name = "indirect", .default_value = true, .help = "light between surfaces, where it is baked"},
       {.name = "glossy",
        .default_value = std::string("matrix"),
@@ -147,8 +166,8 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   if (inputs.environment.empty()) return {};
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), transfer.order(), windowOf(settings.choice("window")));
-  const gpu::BufferRef lights = graph.upload("prt.lights", rotatedLights(light, inputs.scene, transfer));
-  const gpu::BufferRef vertex_light = lightVertices(graph, transfer, lights);
+  const gpu::BufferRef vertex_light =
+      lightVertices(graph, inputs.scene, transfer, light, settings.choice("window") == "auto");
 
   const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                             .width = inputs.gbuffer.width,

@@ -17,8 +17,10 @@ namespace {
 constexpr int kSize = 64;
 constexpr float kPi = 3.14159265f;
 
+/// Without a window unless asked for: transfer in closed form is then light in closed form.
 Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
   Settings result(info().options);
+  result.set("window", "none");
   for (const auto& [name, value] : values) result.set(name, value);
   return result;
 }
@@ -87,6 +89,48 @@ TEST(Prt, UnshadowedTransferIsIrradiance) {
     expectIrradiance(draw(scene), sh::truncated(light, order), 0.004f);
   }
   expectIrradiance(draw(scene, settings({{"order", "4"}})), sh::truncated(light, 4), 0.004f);  // of 6 baked
+}
+
+// Receivers that see the light through a narrow opening show how it rings: where a colour falls below 0, and there
+// alone, windowed light is mixed in.
+TEST(Prt, RingingIsDampedWhereItShows) {
+  Scene scene = skyScene();
+  for (Mesh& mesh : scene.meshes) {
+    auto transfer = std::make_shared<Transfer>();
+    transfer->order = 5;
+    for (const glm::vec3& n : mesh.normals) {
+      const sh::Sh narrow = sh::evaluate(5, n);
+      transfer->direct.insert(transfer->direct.end(), narrow.c.begin(), narrow.c.begin() + narrow.size());
+    }
+    mesh.transfer = transfer;
+  }
+  const Picture none = draw(scene, settings({{"window", "none"}}));
+  const Picture hann = draw(scene, settings({{"window", "hann"}}));
+  const Picture damped = draw(scene, settings({{"window", "auto"}}));
+  const float slack = 0.02f * *std::max_element(hann.direct.begin(), hann.direct.end());  // between vertices
+  int mended = 0, untouched = 0;
+  for (std::size_t i = 0; i < none.ids.size(); ++i) {
+    if (none.ids[i].x == 0) continue;
+    const auto at = [i](const Picture& p) {
+      return glm::vec3(p.direct[4 * i], p.direct[4 * i + 1], p.direct[4 * i + 2]);
+    };
+    const glm::vec3 sharp = at(none), soft = at(hann), got = at(damped);
+    if (glm::any(glm::equal(sharp, glm::vec3(0.0f)))) ++mended;
+    const bool rings = glm::any(glm::lessThan(sharp, kLeastOfDamped * soft + slack));
+    if (!rings) ++untouched;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(got[c], kLeastOfDamped * soft[c] - slack);
+      if (rings) {
+        EXPECT_LE(got[c], std::max(sharp[c], soft[c]) + slack);
+      } else {
+        EXPECT_NEAR(got[c], sharp[c], slack);
+      }
+    }
+  }
+  EXPECT_GT(mended, 50) << "this light does not ring; choose another";
+  EXPECT_GT(untouched, 300);
+  scene.environment = loadEnvironment("sky:overcast");
+  EXPECT_EQ(draw(scene, settings({{"window", "auto"}})).direct, draw(scene).direct);
 }
 
 // The light is turned into the object's axes; also where the object is mirrored.
@@ -208,6 +252,9 @@ TEST(Prt, SaysWhatItCannotDo) {
   Scene scene = skyScene();
   EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("gloam bake"), std::string::npos);
   addTransfer(scene, 4);
+  EXPECT_TRUE(draw(scene, settings({{"order", "4"}})).warnings.empty());
+  EXPECT_EQ(draw(scene, settings({{"order", "5"}})).warnings,
+            Warnings{"prt.order 5: the scene is baked with 4 bands"});
   auto broken = std::make_shared<Transfer>(*scene.meshes[0].transfer);
   broken->direct.pop_back();
   scene.meshes[0].name = "vase";
@@ -265,7 +312,7 @@ TEST(PrtByPicture, Golden) {
   frame::TestFrame frame(baked);
   Prt technique(gpu::testDevice());
   const PosedScene posed = pose(baked, 0.0f);
-  const Settings values = settings();
+  const Settings values(info().options);
   const frame::FrameImages images =
       frame.draw(posed, posed.cameras.at(0), {.width = 96, .height = 96, .supersample = 2},
                  [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {

@@ -5,11 +5,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "techniques/prt/prt_ringing.glsl"
 #include "techniques/prt/prt_shared.h"
 
 layout(constant_id = 0) const int coefficients = 25;
 layout(constant_id = 1) const bool has_indirect = true;
 layout(constant_id = 2) const bool half_float = false;
+layout(constant_id = 3) const bool damped = false;  // the same lights windowed follow, where ringing is to be damped
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) readonly buffer Blocks { VertexBlock at[]; } blocks;
@@ -17,7 +19,7 @@ layout(scalar, set = 0, binding = 1) readonly buffer TransferDirect { uint at[];
 layout(scalar, set = 0, binding = 2) readonly buffer TransferIndirect { uint at[]; } transfer_indirect;
 layout(scalar, set = 0, binding = 3) readonly buffer Lights { vec3 at[]; } lights;
 layout(scalar, set = 0, binding = 4) writeonly buffer VertexLights { VertexLight at[]; } vertex_light;
-layout(scalar, push_constant) uniform Push { uint block_count; } push;
+layout(scalar, push_constant) uniform Push { VerticesParams params; } push;
 
 /// Value i of a lane's vertex. Halves stand two a word.
 float direct(uint block, uint i, uint lane) {
@@ -33,18 +35,26 @@ float indirect(uint block, uint i, uint lane) {
 
 void main() {
   uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  if (number >= push.block_count) return;
+  if (number >= push.params.block_count) return;
   VertexBlock block = blocks.at[number];
   uint lane = gl_LocalInvocationID.x;
   if (lane >= block.count) return;
-  VertexLight sum = VertexLight(vec3(0.0), vec3(0.0));
+  VertexLight sum = VertexLight(vec3(0.0), vec3(0.0)), soft = sum;
   for (uint i = 0u; i < uint(coefficients); ++i) {
-    vec3 light = lights.at[block.light + i];
-    sum.direct += light * direct(block.transfer, i, lane);
+    vec3 light = lights.at[block.light + i], soft_light = vec3(0.0);
+    float m = direct(block.transfer, i, lane);
+    sum.direct += light * m;
+    if (damped) {
+      soft_light = lights.at[push.params.first_damped + block.light + i];
+      soft.direct += soft_light * m;
+    }
     if (has_indirect) {
-      sum.indirect += light * vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
-                                   indirect(block.transfer, 3u * i + 2u, lane));
+      vec3 bounced = vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
+                          indirect(block.transfer, 3u * i + 2u, lane));
+      sum.indirect += light * bounced;
+      if (damped) soft.indirect += soft_light * bounced;
     }
   }
+  if (damped) sum = VertexLight(withoutRinging(sum.direct, soft.direct), withoutRinging(sum.indirect, soft.indirect));
   vertex_light.at[block.output_ + lane] = sum;
 }
