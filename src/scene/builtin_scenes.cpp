@@ -24,6 +24,8 @@ const std::vector<Entry>& entries() {
       {{"cornell", "a box with a red and a green wall, two boxes, a skylight with a lamp"}, makeCornell},
       {{"spheres", "diffuse, glossy and metal spheres of five roughnesses on a plinth"}, makeSpheres},
       {{"shadow", "three rings round a ball float above a plinth: soft shadows"}, makeShadow},
+      {{"bronze", "a bronze knot and balls on polished slate: gloss that is shadowed and reflects"},
+       makeBronze},
       {{"columns", "an arcade before a red wall: shadow and bleeding colour in depth"}, makeColumns},
       {{"lamp", "a corner of a room at night: point, spot and directional light through thin bars"},
        makeLamp},

@@ -82,6 +82,27 @@ Scene makeShadow(const Detail& detail, NamedValues&) {
   return builder.finish();
 }
 
+Scene makeBronze(const Detail& detail, NamedValues&) {
+  SceneBuilder builder("bronze");
+  constexpr float kSheen = 0.62f;  // a Phong exponent of 11.5: what five or six bands of light show
+  const int slate = builder.metal("polished slate", {0.5f, 0.52f, 0.56f}, kSheen);
+  builder.material(slate).metallic = 0.65f;
+  builder.place("floor", shapes::slab(1.8f, 1.8f, 0.14f, 0.04f, detail.cell(0.036f)), slate);
+  builder.place(
+      "knot",
+      turned(shapes::torusKnot(2, 3, 0.4f, 0.19f, 0.115f, detail(240), detail(24)), -72, {1, 0, 0.1f}),
+      builder.metal("bronze", {0.86f, 0.56f, 0.3f}, kSheen), {-0.1f, 0.62f, -0.1f});
+  builder.place("silver ball", shapes::icosphere(0.27f, detail(15)),
+                builder.metal("silver", {0.93f, 0.92f, 0.9f}, kSheen), {0.86f, 0.27f, 0.34f});
+  builder.place("red ball", shapes::icosphere(0.2f, detail(12)),
+                builder.diffuse("red clay", {0.72f, 0.12f, 0.07f}), {0.36f, 0.2f, 0.86f});
+  builder.place("blue ball", shapes::icosphere(0.24f, detail(12)),
+                builder.diffuse("blue glaze", {0.06f, 0.22f, 0.6f}), {-0.86f, 0.24f, 0.5f});
+  builder.camera({0.9f, 2.1f, 4.0f}, {0, 0.42f, 0.05f}, 32);
+  builder.sky("studio?rotation=-65");
+  return builder.finish();
+}
+
 Scene makeMobile(const Detail& detail, NamedValues&) {
   constexpr float kSeconds = 8.0f;
   SceneBuilder builder("mobile");

@@ -70,6 +70,7 @@ Scene makeCornell(const Detail& detail, NamedValues& values);         // builtin
 Scene makeLamp(const Detail& detail, NamedValues& values);            //
 Scene makeSpheres(const Detail& detail, NamedValues& values);         // builtin_stages.cpp
 Scene makeShadow(const Detail& detail, NamedValues& values);          //
+Scene makeBronze(const Detail& detail, NamedValues& values);          //
 Scene makeMobile(const Detail& detail, NamedValues& values);          //
 Scene makeColumns(const Detail& detail, NamedValues& values);         // builtin_columns.cpp
 Scene makeTextured(const Detail& detail, NamedValues& values);        // builtin_textured.cpp

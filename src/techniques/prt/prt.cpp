@@ -148,7 +148,8 @@ void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
   if (glossy.empty()) return;
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), glossy.lightOrder(), windowOf(settings.choice("window")));
-  lighting.gloss = recordGloss(graph, inputs, glossy, light, settings.flag("indirect"));
+  lighting.gloss = recordGloss(graph, inputs, glossy, light, settings.choice("window") == "auto",
+                               settings.flag("indirect"));
   lighting.has_environment_gloss = true;
 }
 

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "techniques/prt/prt_bake_kernels.h"
@@ -127,9 +128,13 @@ PrtBakeBench benchBake(const Scene& scene, const BakeOptions& options, int round
   PrtBakeBench bench;
   tbb::task_arena(cores).execute([&] {
     const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true});
-    const BakePasses passes(scene, posed, points, tracer, tables);
     BakeState state =
         makeBakeState(points.size(), tables, options.kind == TransferKind::kInterreflected ? 1 : 0);
+    state.glossy = makeGlossyState(scene, posed, points, options);
+    std::optional<GlossyTables> glossy;
+    if (!state.glossy.empty())
+      glossy.emplace(state.glossy.layout, tables).instances.assign(posed.instances.size(), 1);
+    const BakePasses passes(scene, posed, points, tracer, tables, glossy ? &*glossy : nullptr);
     bench = measure(points, tracer, tables, passes, state, std::max(1, rounds));
   });
   return bench;

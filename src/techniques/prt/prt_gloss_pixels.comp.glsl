@@ -3,7 +3,8 @@
 //
 // What a pixel's Phong lobe gathers of the radiance at the three vertices around it: interpolated, convolved with the lobe
 // of the pixel's exponent, taken at the mirror direction about its shading normal (PRT-2, PRT-8; RF-5). What carries no
-// glossy transfer gets the unshadowed lobe. Negative sums, which ringing leaves, count as 0.
+// glossy transfer gets the unshadowed lobe. Negative sums, which ringing leaves, are damped by a blunter lobe, or count
+// as 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -14,10 +15,12 @@
 #include "frame/triangle.glsl"
 #include "frame/view.glsl"
 #include "math/brdf.glsl"
+#include "techniques/prt/prt_ringing.glsl"
 #include "techniques/prt/prt_shared.h"
 
 layout(constant_id = 0) const int field_order = 5;
 layout(constant_id = 1) const bool has_indirect = true;
+layout(constant_id = 2) const bool damped = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -33,24 +36,31 @@ layout(set = 0, binding = 9) uniform writeonly image2D indirect;
 layout(scalar, push_constant) uniform Push { float exposure; } push;
 
 const uint kWords = has_indirect ? 3u : 2u;
+const float kPi = 3.14159265;
 const float kNoFactors[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
 uvec3 first_words;  // of the three vertices
 vec3 weights;
-vec3 first, further;
+vec3 first, further, soft_first, soft_further;
 
-/// Coefficient i of the interpolated radiance, weighted.
-void addCoefficient(uint i, float weight) {
+/// Coefficient i of the interpolated radiance, by the weights of the lobe and of the blunter one.
+void addCoefficient(uint i, float weight, float soft_weight) {
+  vec3 direct_ = vec3(0.0), indirect_ = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     uint at = first_words[k] + i * kWords;
     vec2 a = unpackHalf2x16(fields.at[at]), b = unpackHalf2x16(fields.at[at + 1u]);
-    float w = weight * weights[k];
-    first += w * vec3(a, b.x);
-    if (has_indirect) further += w * vec3(b.y, unpackHalf2x16(fields.at[at + 2u]));
+    direct_ += weights[k] * vec3(a, b.x);
+    if (has_indirect) indirect_ += weights[k] * vec3(b.y, unpackHalf2x16(fields.at[at + 2u]));
+  }
+  first += weight * direct_;
+  if (has_indirect) further += weight * indirect_;
+  if (damped) {
+    soft_first += soft_weight * direct_;
+    if (has_indirect) soft_further += soft_weight * indirect_;
   }
 }
 
-#define ADD(i, l) addCoefficient(uint(i), factors[l] * y[i]);
+#define ADD(i, l) addCoefficient(uint(i), factors[l] * y[i], soft_factors[l] * y[i]);
 #define BANDS_3 ADD(0, 0) ADD(1, 1) ADD(2, 1) ADD(3, 1) ADD(4, 2) ADD(5, 2) ADD(6, 2) ADD(7, 2) ADD(8, 2)
 #define BANDS_4 BANDS_3 ADD(9, 3) ADD(10, 3) ADD(11, 3) ADD(12, 3) ADD(13, 3) ADD(14, 3) ADD(15, 3)
 #define BANDS_5 BANDS_4 ADD(16, 4) ADD(17, 4) ADD(18, 4) ADD(19, 4) ADD(20, 4) ADD(21, 4) ADD(22, 4) ADD(23, 4) ADD(24, 4)
@@ -64,7 +74,13 @@ void addCoefficient(uint i, float weight) {
     return;                       \
   }
 
+/// Hann's window makes the lobe the blunter one.
 void gather(vec3 axis, float factors[6]) {
+  float soft_factors[6] = factors;
+  if (damped) {
+    for (int l = 0; l < 6; ++l)
+      soft_factors[l] *= l < field_order ? 0.5 + 0.5 * cos(kPi * float(l) / float(field_order)) : 0.0;
+  }
   if (field_order <= 3) EVALUATE(3, 9)
   if (field_order == 4) EVALUATE(4, 16)
   if (field_order == 5) EVALUATE(5, 25)
@@ -75,8 +91,7 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(direct)))) return;
   uvec2 id = texelFetch(ids, pixel, 0).xy;
-  first = vec3(0.0);
-  further = vec3(0.0);
+  first = further = soft_first = soft_further = vec3(0.0);
   if (isCovered(id) && texelFetch(specular, pixel, 0).rgb != vec3(0.0)) {
     GlossRow row = gloss_rows.at[id.x - 1u];
     Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
@@ -92,6 +107,10 @@ void main() {
       float factors[6] = kNoFactors;
       if (row.exponent == 0.0) phongBandFactors(clamp(exponent, 1.0, kSharpestLobe[field_order]), factors);
       gather(row.object_from_world * mirror, factors);
+      if (damped) {
+        first = withoutRinging(first, soft_first);
+        further = withoutRinging(further, soft_further);
+      }
     }
   }
   imageStore(direct, pixel, vec4(max(first, vec3(0.0)), 1.0));

@@ -13,7 +13,8 @@
 namespace gloam::prt {
 
 std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
-                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool indirect) {
+                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
+                                      bool indirect) {
   // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
   std::vector<glm::vec3> light_rows;
   float greatest = 0.0f;
@@ -53,6 +54,7 @@ std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::Frame
   auto& pixels = graph.compute("prt.gloss_pixels", prt_gloss_pixels_spv)
                      .specialize("field_order", glossy.fieldOrder())
                      .specialize("has_indirect", glossy.hasIndirect())
+                     .specialize("damped", damped)
                      .read("frame_view", inputs.view)
                      .read("ids", inputs.gbuffer.ids)
                      .read("normals", inputs.gbuffer.normals)

@@ -9,8 +9,9 @@
 namespace gloam::prt {
 
 /// Adds "prt.gloss_vertices", once a chunk, and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be
-/// used. The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
+/// used; `damped`: where ringing makes a lobe negative, a blunter one is mixed in. The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
 std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
-                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool indirect);
+                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
+                                      bool indirect);
 
 }  // namespace gloam::prt

@@ -19,6 +19,7 @@ constexpr float kPi = 3.14159265f;
 
 Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
   Settings result(info().options);
+  result.set("window", "none");
   for (const auto& [name, value] : values) result.set(name, value);
   return result;
 }
@@ -195,6 +196,25 @@ TEST(PrtGlossy, BakedLobesStay) {
   }
 }
 
+// Lobes that ring below zero are made blunter; the others stay as they are.
+TEST(PrtGlossy, RingingIsDampedWhereItShows) {
+  Scene scene = metalScene(10.0f);
+  scene.environment = loadEnvironment("sky:studio");
+  addTransfer(scene, 5, 5, true);
+  const Picture none = draw(scene), damped = draw(scene, settings({{"window", "auto"}}));
+  int black = 0, same = 0, covered = 0;
+  for (std::size_t i = 0; i < none.ids.size(); ++i) {
+    if (none.ids[i].x == 0) continue;
+    ++covered;
+    const float *before = &none.direct[4 * i], *after = &damped.direct[4 * i];
+    black += std::min({before[0], before[1], before[2]}) == 0.0f;
+    same += std::abs(before[1] - after[1]) <= 1e-3f * before[1];
+    ASSERT_GT(std::min({after[0], after[1], after[2]}), 0.0f);
+  }
+  EXPECT_GT(black, covered / 20);
+  EXPECT_GT(same, covered / 3);
+}
+
 // What has none keeps the unshadowed lobe of frame/; so does all with glossy=unshadowed.
 TEST(PrtGlossy, WhatHasNoMatricesKeepsTheUnshadowedLobe) {
   Scene scene = metalScene(6.0f);
@@ -250,7 +270,7 @@ TEST(PrtGlossyByPicture, Golden) {
   frame::TestFrame frame(baked);
   Prt technique(gpu::testDevice());
   const PosedScene posed = pose(baked, 0.0f);
-  const Settings values = settings();
+  const Settings values = settings({{"window", "auto"}});
   const frame::FrameImages images =
       frame.draw(posed, posed.cameras.at(0), {.width = 96, .height = 96, .supersample = 2},
                  [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
