@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 struct BakeChoice {
   SceneChoice scene;
   BakeOptions options;
-  std::string output, kind = "di";
+  std::string output, kind = "di", glossy = "auto";
   bool half_float = false, resume = true, estimate_only = false;
-  std::vector<const CLI::Option*> of_rays, of_bounces;  ///< options that some kinds have no use for
+  std::vector<const CLI::Option*> of_rays, of_bounces, of_gloss;  ///< options that not all bakes use
 };
 
 TransferKind kindOf(const std::string& kind) {
@@ -31,12 +31,15 @@ TransferKind kindOf(const std::string& kind) {
   return TransferKind::kInterreflected;
 }
 
+GlossyMeshes glossyOf(const std::string& glossy) {
+  if (glossy == "off") return GlossyMeshes::kNone;
+  return glossy == "on" ? GlossyMeshes::kAll : GlossyMeshes::kShiny;
+}
+
 Json estimateJson(const BakeEstimate& estimate) {
-  return {{"vertices", estimate.vertices},
-          {"triangles", estimate.triangles},
-          {"rays", estimate.rays},
-          {"memory_bytes", estimate.memory_bytes},
-          {"file_bytes", estimate.file_bytes}};
+  return {{"vertices", estimate.vertices},         {"glossy_vertices", estimate.glossy_vertices},
+          {"triangles", estimate.triangles},       {"rays", estimate.rays},
+          {"memory_bytes", estimate.memory_bytes}, {"file_bytes", estimate.file_bytes}};
 }
 
 // Found before hours of work, not after.
@@ -55,6 +58,10 @@ void remarkUnusedOptions(const BakeChoice& choice, Console& console) {
       console.remark(fmt::format("{} has no effect on --kind {}", option->get_name(), choice.kind));
     }
   };
+  for (const CLI::Option* option : choice.of_gloss) {
+    if (choice.glossy == "off" && option->count() > 0)
+      console.remark(fmt::format("{} has no effect with --glossy off", option->get_name()));
+  }
   if (choice.kind != "di") remark(choice.of_bounces);
   if (choice.kind == "du") remark(choice.of_rays);
 }
@@ -92,29 +99,37 @@ void printResult(const BakeChoice& choice, const BakeReport& report, Console& co
                                choice.output, bytesText(size), countText(report.vertices),
                                durationText(report.first_pass_s), rate / 1e6, durationText(report.bounces_s),
                                report.resumed ? "; resumed" : ""));
+    if (report.glossy_points > 0) {
+      console.remark(fmt::format("{} points have matrices; prt.glossy=cheap would err by {:.1f} %",
+                                 countText(report.glossy_points), 100.0 * report.cheap_error));
+    }
     return;
   }
   const BakeOptions& options = choice.options;
-  console.print(jsonText({{"scene", choice.scene.name},
-                          {"output", choice.output},
-                          {"kind", choice.kind},
-                          {"order", options.order},
-                          {"bounces", options.kind == TransferKind::kInterreflected ? options.bounces : 0},
-                          {"directions", options.directions},
-                          {"half_float", choice.half_float},
-                          {"points", report.vertices},
-                          {"rays", report.rays},
-                          {"bounce_rays", report.bounce_rays},
-                          {"first_pass_s", report.first_pass_s},
-                          {"bounces_s", report.bounces_s},
-                          {"rays_per_s", rate},
-                          {"resumed", report.resumed},
-                          {"file_bytes", size}}));
+  console.print(
+      jsonText({{"scene", choice.scene.name},
+                {"output", choice.output},
+                {"kind", choice.kind},
+                {"order", options.order},
+                {"bounces", options.kind == TransferKind::kInterreflected ? options.bounces : 0},
+                {"directions", options.directions},
+                {"half_float", choice.half_float},
+                {"points", report.vertices},
+                {"rays", report.rays},
+                {"bounce_rays", report.bounce_rays},
+                {"first_pass_s", report.first_pass_s},
+                {"bounces_s", report.bounces_s},
+                {"rays_per_s", rate},
+                {"resumed", report.resumed},
+                {"glossy_points", report.glossy_points},
+                {"cheap_error", report.glossy_points > 0 ? Json(report.cheap_error) : Json(nullptr)},
+                {"file_bytes", size}}));
 }
 
 int runBake(BakeChoice choice, Console& console) {
   if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_prt.glb";
   choice.options.kind = kindOf(choice.kind);
+  choice.options.glossy = glossyOf(choice.glossy);
   if (!choice.estimate_only) checkOutput(choice);
   const Scene scene = loadSceneToDraw(choice.scene, console);
   remarkUnusedOptions(choice, console);
@@ -159,11 +174,28 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
       ->group("Transfer");
 }
 
+void addGlossyOptions(CLI::App& app, BakeChoice& choice) {
+  BakeOptions& options = choice.options;
+  addChoice(app, "--glossy", choice.glossy, {"auto", "on", "off"},
+            "matrices for gloss: of meshes that mirror 10 % of light or more, of all, or of none")
+      ->default_str(choice.glossy)
+      ->group("Gloss");
+  const auto ofGloss = [&choice](CLI::Option* option) { choice.of_gloss.push_back(option->group("Gloss")); };
+  ofGloss(addInteger(app, "--glossy-order", options.glossy_order, {3, 6}, "N",
+                     "bands of the radiance that matrices give; by default --order"));
+  ofGloss(
+      addInteger(app, "--glossy-light-order", options.glossy_light_order, {3, 6}, "N",
+                 "bands of the light that they take; by default as many. 3 with --glossy-order 5: 9 to 25"));
+  ofGloss(addNumber(app, "--bake-gloss", options.glossy_exponent, {1.0, 1000.0}, "EXPONENT",
+                    "bakes one Phong lobe in, not to be changed; by default each material's own"));
+}
+
 std::function<int()> declareBake(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<BakeChoice>();
   addSceneOptions(app, choice->scene);
   addOutput(app, choice->output, "FILE", "the baked scene, a .glb; by default the scene's name and _prt.glb");
   addSimulatorOptions(app, *choice);
+  addGlossyOptions(app, *choice);
   app.add_flag("--half", choice->half_float, "store transfer as 16-bit floats: half the size")
       ->group("Output");
   addInteger(app, "--threads", choice->options.threads, {0, 1024}, "N",
@@ -183,6 +215,8 @@ const Verb kBakeVerb = {
     "bake", "precomputes how a scene shadows and lights itself, for --technique prt",
     "gloam bake bunny.obj --ground -o bunny.glb | with a floor, two bounces, order 5\n"
     "gloam bake builtin:cornell --bounces 6 --order 4 --half -o cornell.glb | more bounces, a smaller file\n"
+    "gloam bake teapot.glb --ground --glossy on --bounces 3 -o teapot.glb | gloss that is shadowed and "
+    "reflects, too\n"
     "gloam bake statue.glb --estimate | how much memory and how large a file\n"
     "gloam bake spheres statue.glb | fits spheres instead, for what moves: gloam bake spheres --help\n"
     "gloam bake statue.glb -o statue_prt.glb | after Ctrl-C the same command goes on where it stopped\n",

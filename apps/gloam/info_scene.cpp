@@ -80,13 +80,23 @@ Json animationsJson(const Scene& scene) {
 }
 
 Json transferJson(const Scene& scene) {
-  std::size_t meshes = 0, vertices = 0, floats = 0;
+  std::size_t meshes = 0, vertices = 0, glossy_vertices = 0, floats = 0;
+  Json glossy = nullptr;
   const Transfer* any = nullptr;
   for (const Mesh& mesh : scene.meshes) {
     if (!mesh.transfer) continue;
     any = mesh.transfer.get();
     ++meshes, vertices += mesh.vertexCount();
     floats += any->direct.size() + any->indirect.size();
+    const GlossyTransfer& own = any->glossy;
+    if (own.empty()) continue;
+    floats += own.visibility.size() + own.indirect.size();
+    glossy_vertices += mesh.vertexCount();
+    glossy = {{"light_order", own.light_order},
+              {"radiance_order", own.field_order},
+              {"interreflected", !own.indirect.empty()},
+              {"exponent", own.exponent > 0.0f ? Json(shortest(own.exponent)) : Json(nullptr)},
+              {"vertices", glossy_vertices}};
   }
   if (any == nullptr) return nullptr;
   return {{"kind", transferKind(*any)},
@@ -96,6 +106,7 @@ Json transferJson(const Scene& scene) {
           {"directions", any->directions},
           {"meshes", meshes},
           {"vertices", vertices},
+          {"glossy", glossy},
           {"bytes_in_memory", floats * sizeof(float)}};
 }
 

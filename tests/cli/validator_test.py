@@ -9,7 +9,7 @@ import unittest
 
 from harness import SOURCE, CliTest
 
-SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "columns", "lamp", "textured", "walker",
+SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "columns", "lamp", "textured", "walker",
           "mobile"]
 
 
@@ -45,7 +45,10 @@ class Validator(CliTest):
         bake = ["bake", "builtin:columns?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
         self.succeed(*bake, "--bounces", "1", "-o", "di.glb")
         self.succeed(*bake, "--kind", "ds", "--half", "-o", "ds.glb")
-        self.validate([self.path("di.glb"), self.path("ds.glb")])
+        gloss = ["bake", "builtin:bronze?detail=0.25", "--directions", "256", "--bounce-directions", "256", "--order", "3"]
+        self.succeed(*gloss, "--bounces", "1", "-o", "gi.glb")
+        self.succeed(*gloss, "--kind", "ds", "--bake-gloss", "4", "--half", "-o", "gs.glb")
+        self.validate([self.path(f"{name}.glb") for name in ("di", "ds", "gi", "gs")])
 
     def test_what_the_writers_own_tests_write(self):
         scene_test = pathlib.Path(os.environ["SCENE_TEST"])
