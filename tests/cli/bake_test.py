@@ -96,6 +96,19 @@ class Bake(CliTest):
         self.assertEqual((glossy["light_order"], glossy["radiance_order"], glossy["exponent"]), (3, 5, 6))
         self.assertFalse(glossy["interreflected"])
 
+    def test_light_that_does_not_go_into_the_file_is_told(self):
+        document, binary = triangle()
+        document["extensionsUsed"] = ["EXT_lights_image_based"]
+        coefficients = [[1, 1, 1]] + [[0, 0, 0]] * 8
+        document["extensions"] = {"EXT_lights_image_based": {"lights": [
+            {"irradianceCoefficients": coefficients, "specularImages": [], "specularImageSize": 1}]}}
+        document["scenes"][0]["extensions"] = {"EXT_lights_image_based": {"light": 0}}
+        self.path("lit.glb").write_bytes(glb(document, binary))
+        words = "does not go into a .glb: give it by --env"
+        self.assertIn(words, self.succeed("bake", "lit.glb", *QUICK, "--kind", "du", "-o", "a.glb").err)
+        self.assertIn(words, self.succeed("scene", "lit.glb", "-o", "b.glb").err)
+        self.assertNotIn(words, self.succeed("bake", SCENE, *QUICK, "--kind", "du", "-o", "a.glb").err)  # a sky by name
+
     def test_half_floats_halve_the_transfer(self):
         sizes = []
         for options in [], ["--half"]:
