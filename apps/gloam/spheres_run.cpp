@@ -32,10 +32,12 @@ std::optional<fs::path> cacheFolder() {
   return folder;
 }
 
+constexpr int kSearchVersion = 1;  // to be raised when the same options give other spheres
+
 /// Changes with anything in the scene but its environment, with every option that changes the result, and with the version.
 std::string keyOf(const Scene& scene, const SphereOptions& options) {
   Fingerprint key;
-  addAll(key, std::string(GLOAM_VERSION), scene, options.count, options.seed, options.samples,
+  addAll(key, std::string(GLOAM_VERSION), kSearchVersion, scene, options.count, options.seed, options.samples,
          options.effort);
   return key.text();
 }
@@ -53,8 +55,8 @@ std::optional<SceneSpheres> readKept(const fs::path& file, const Scene& scene) {
 
 }  // namespace
 
-SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache,
-                               Console& console, int count) {
+SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache, Console& console,
+                               int count) {
   const SphereOptions options{.count = count};
   const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
   fs::path file;

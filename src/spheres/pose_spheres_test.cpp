@@ -189,7 +189,7 @@ Scene legs() {
 
 TEST(PoseSpheres, NoSphereHoldsWhatMovesApart) {
   const Scene scene = legs();
-  const SceneSpheres spheres = bakeSpheres(scene, quick(12, 0.3f));
+  const SceneSpheres spheres = bakeSpheres(scene, quick(12, 0.15f));
   int astride = 0;
   for (const Sphere& s : spheres.sets[0].spheres) {
     if (s.center.y > -1.0f) continue;  // near the hinge they stay together

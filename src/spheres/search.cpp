@@ -19,7 +19,8 @@ constexpr int kEpochs = 12, kMendRounds = 8;
 constexpr float kMovesPerBall = 40.0f, kMovesBase = 1000.0f;
 constexpr float kTolerance = 1.3f,
                 kMostTolerance = 0.08f;  // of the mean cost of a ball, of the sum; at first
-constexpr float kFinest = 1.0f / 400.0f;
+constexpr float kFinest = 0.004f,
+                kLargestFinest = 1.0f / 400.0f;  // of the root of the area; of the solid's length
 
 FitPoints leadingPoints(const Solid& solid, const Occupancy& occupancy, const SearchOptions& options) {
   FitPoints points;
@@ -96,10 +97,11 @@ std::vector<Ball> findBalls(const Solid& solid, const SearchOptions& options, co
   Fits fits =
       runFits(occupancy, points, options, {}, epochs, moves,
               std::min(kTolerance / float(options.count), kMostTolerance), report(0.0, 0.8), progress);
+  const float finest = std::min(kFinest * std::sqrt(solid.area), kLargestFinest);
   for (int round = 0; round < kMendRounds; ++round) {
     std::vector<glm::vec3> missed;
     for (const std::vector<Ball>& balls : fits) {
-      const std::vector<glm::vec3> more = uncoveredPoints(solid.soup, balls, kFinest);
+      const std::vector<glm::vec3> more = uncoveredPoints(solid.soup, balls, finest);
       missed.insert(missed.end(), more.begin(), more.end());
     }
     if (missed.empty()) break;
@@ -112,7 +114,7 @@ std::vector<Ball> findBalls(const Solid& solid, const SearchOptions& options, co
   std::vector<Ball> balls = std::move(fits.front());
   std::erase_if(balls, [](const Ball& ball) { return ball.radius <= 0.0f; });
   for (int round = 0; round < kMendRounds; ++round) {
-    const std::vector<glm::vec3> missed = uncoveredPoints(solid.soup, balls, kFinest);
+    const std::vector<glm::vec3> missed = uncoveredPoints(solid.soup, balls, finest);
     if (missed.empty()) break;
     growOver(missed, balls);
   }

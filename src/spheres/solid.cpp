@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -13,8 +14,7 @@ namespace {
 
 constexpr int kCoarseCells = 48, kMostCells = 144;
 constexpr float kCellsPerRadius = 8.0f;
-constexpr float kSheet =
-    8.0f;  // squared length of open edges over area: 4 pi for a disc, 2 pi for half a ball
+constexpr float kSheet = 8.0f;  // squared length of a rim over area: 4 pi for a disc, 2 pi for half a ball
 
 struct PositionHash {
   std::size_t operator()(const glm::vec3& p) const {
@@ -78,23 +78,39 @@ Soup welded(const Soup& given, const glm::vec3& origin, float scale) {
   return soup;
 }
 
-/// Squared length of all open edges over the area.
-float opennessOf(const Soup& soup, float area) {
+/// Edges that have more triangles on one side than on the other, in order.
+std::vector<glm::uvec2> openEdges(const Soup& soup) {
   std::unordered_map<std::uint64_t, int> balance;
   for (std::size_t i = 0; i < soup.indices.size(); ++i) {
     const std::uint32_t a = soup.indices[i], b = soup.indices[i % 3 == 2 ? i - 2 : i + 1];
     balance[(std::uint64_t(std::min(a, b)) << 32) | std::max(a, b)] += a < b ? 1 : -1;
   }
-  std::vector<std::uint64_t> open;
+  std::vector<std::uint64_t> keys;
   for (const auto& [edge, count] : balance) {
-    if (count != 0) open.push_back(edge);
+    if (count != 0) keys.push_back(edge);
   }
-  std::ranges::sort(open);  // sums in one order
-  double length = 0.0;
-  for (const std::uint64_t edge : open) {
-    length += double(glm::distance(soup.positions[edge >> 32], soup.positions[edge & 0xffffffffu]));
+  std::ranges::sort(keys);
+  std::vector<glm::uvec2> edges;
+  for (const std::uint64_t key : keys) edges.emplace_back(std::uint32_t(key >> 32), std::uint32_t(key));
+  return edges;
+}
+
+/// Sum over rims (open edges that hang together) of their squared length, over the area.
+float opennessOf(const Soup& soup, const std::vector<glm::uvec2>& open, float area) {
+  std::vector<std::uint32_t> rim(soup.positions.size());  // union-find
+  std::iota(rim.begin(), rim.end(), 0u);
+  const auto find = [&](std::uint32_t v) {
+    while (rim[v] != v) v = rim[v] = rim[rim[v]];
+    return v;
+  };
+  for (const glm::uvec2& edge : open) rim[find(edge.x)] = find(edge.y);
+  std::vector<double> length(soup.positions.size(), 0.0);
+  for (const glm::uvec2& edge : open) {
+    length[find(edge.x)] += double(glm::distance(soup.positions[edge.x], soup.positions[edge.y]));
   }
-  return float(length * length / double(area));
+  double sum = 0.0;
+  for (const double rim_length : length) sum += rim_length * rim_length;
+  return float(sum / double(area));
 }
 
 /// Axes of the surface's second moments, by Jacobi rotations; extents of the corners along them.
@@ -155,8 +171,8 @@ Solid makeSolid(const Soup& given, const std::function<bool()>& should_stop) {
   measure(solid);
   if (solid.degenerate()) return solid;
   solid.extents = ownExtents(solid.soup);
-  const float openness = opennessOf(solid.soup, solid.area);
-  solid.closed = openness == 0.0f;
+  const std::vector<glm::uvec2> open = openEdges(solid.soup);
+  solid.closed = open.empty();
   solid.inverted = solid.closed && solid.signed_volume < 0.0f;
   solid.winding = std::make_shared<WindingTree>(solid.soup);
   const auto grid = [&](bool shell) {
@@ -164,7 +180,7 @@ Solid makeSolid(const Soup& given, const std::function<bool()>& should_stop) {
                                        should_stop);
   };
   solid.coarse = grid(false);
-  solid.shell = solid.coarse->volume() <= 0.0f || openness > kSheet;
+  solid.shell = solid.coarse->volume() <= 0.0f || opennessOf(solid.soup, open, solid.area) > kSheet;
   if (solid.shell) solid.coarse = grid(true);
   solid.volume = solid.coarse->volume();
   return solid;

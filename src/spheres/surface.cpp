@@ -13,7 +13,7 @@ namespace gloam::spheres {
 namespace {
 
 constexpr std::size_t kBlock = 4096;  // triangles a task
-constexpr int kDeepest = 12;          // halvings of an edge
+constexpr int kDeepest = 14;          // halvings of an edge
 
 struct Loose {
   glm::vec3 point;
