@@ -74,7 +74,26 @@ AssimpNodes readAssimpNodes(const aiScene& source, Scene& scene) {
   return out;
 }
 
+namespace {
+
+/// Metres in the unit in which an FBX file counts; lengths are in metres already (aiProcess_GlobalScale), the fading of its
+/// lamps is not. 1 for other formats.
+float fileUnit(const aiScene& source) {
+  double centimetres = 100.0;
+  float single = 0.0f;
+  if (source.mMetaData == nullptr) return 1.0f;
+  if (source.mMetaData->Get("UnitScaleFactor", single)) {
+    centimetres = double(single);
+  } else if (!source.mMetaData->Get("UnitScaleFactor", centimetres)) {
+    return 1.0f;
+  }
+  return std::isfinite(centimetres) && centimetres > 0.0 ? float(0.01 * centimetres) : 1.0f;
+}
+
+}  // namespace
+
 void readAssimpCamerasAndLights(const aiScene& source, const AssimpNodes& nodes, Scene& scene) {
+  const float unit_m = fileUnit(source);
   for (unsigned i = 0; i < source.mNumCameras; ++i) {
     const aiCamera& from = *source.mCameras[i];
     Camera camera;
@@ -101,8 +120,15 @@ void readAssimpCamerasAndLights(const aiScene& source, const AssimpNodes& nodes,
     else if (from.mType != aiLightSource_POINT)
       continue;  // ambient light has no place here
     light.intensity = glm::vec3(from.mColorDiffuse.r, from.mColorDiffuse.g, from.mColorDiffuse.b);
-    if (light.type != Light::Type::kDirectional && from.mAttenuationQuadratic > 1e-12f)
-      light.intensity /= from.mAttenuationQuadratic;
+    if (light.type != Light::Type::kDirectional && from.mAttenuationQuadratic > 1e-12f) {
+      light.intensity *=
+          unit_m * unit_m / from.mAttenuationQuadratic;  // it counts in the file's unit of length
+    } else if (light.type != Light::Type::kDirectional) {
+      scene.warnings.push_back(fmt::format(
+          "lamp '{}' does not fade with the square of the distance as lamps do here: its strength "
+          "is a guess",
+          light.name));
+    }
     for (int c = 0; c < 3; ++c)
       light.intensity[c] =
           std::isfinite(light.intensity[c]) ? std::clamp(light.intensity[c], 0.0f, 1e30f) : 0.0f;

@@ -8,6 +8,9 @@
 
 #include "scene/gltf_test_files.h"
 #include "scene/mesh_laws.h"
+#if GLOAM_HAS_ASSIMP
+#include "scene/assimp_parts.h"
+#endif
 
 namespace gloam::test {
 namespace {
@@ -182,6 +185,32 @@ TEST(ImportInChild, CrashesTimeAndMemoryAreErrors) {
   stop.should_stop = [] { return true; };
   EXPECT_THROW(importInChild("file.obj", 5.0, 1 << 28, stop, runForever), Interrupted);
 }
+
+#if GLOAM_HAS_ASSIMP
+// 2 / DecayStart^2 with DecayStart 3000 cm, as the library hands it on: half of 30^2 candela, not of 3000^2.
+TEST_F(AssimpRead, LampsFadeInMetresWhateverTheFileCountsIn) {
+  aiScene source;
+  source.mNumLights = 2;
+  source.mLights = new aiLight*[2];
+  for (unsigned i = 0; i < 2; ++i) {
+    source.mLights[i] = new aiLight;
+    source.mLights[i]->mType = aiLightSource_POINT;
+    source.mLights[i]->mName = aiString(i == 0 ? "fades" : "does not");
+    source.mLights[i]->mColorDiffuse = aiColor3D(1.0f, 1.0f, 1.0f);
+    source.mLights[i]->mAttenuationQuadratic = i == 0 ? 2.0f / (3000.0f * 3000.0f) : 0.0f;
+  }
+  source.mMetaData = aiMetadata::Alloc(1);
+  source.mMetaData->Set(0, "UnitScaleFactor", 1.0f);
+  Scene scene;
+  scene.nodes.resize(1);
+  readAssimpCamerasAndLights(source, {}, scene);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_NEAR(scene.lights[0].intensity.x, 450.0f, 0.01f);
+  EXPECT_EQ(scene.lights[1].intensity.x, 1.0f);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("'does not'"), std::string::npos);
+}
+#endif
 
 }  // namespace
 }  // namespace gloam::test
