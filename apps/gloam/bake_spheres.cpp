@@ -34,10 +34,10 @@ std::string setText(const SphereSet& set) {
   const SphereFigures& f = set.figures;
   const std::string places = set.nodes.size() > 1 ? fmt::format(", at {} nodes", set.nodes.size()) : "";
   return fmt::format(
-      "{}: {} spheres{}; outside {:.2f} % of its volume (overlaps once: {:.2f} %); {:.3f} % of its "
+      "{}: {} {}{}; outside {:.2f} % of its volume (overlaps once: {:.2f} %); {:.3f} % of its "
       "surface covered",
-      set.name, set.spheres.size(), places, 100.0 * f.relativeSum(), 100.0 * f.relativeUnion(),
-      100.0 * f.coverage);
+      set.name, set.spheres.size(), set.spheres.size() == 1 ? "sphere" : "spheres", places,
+      100.0 * f.relativeSum(), 100.0 * f.relativeUnion(), 100.0 * f.coverage);
 }
 
 Json setJson(const SphereSet& set) {

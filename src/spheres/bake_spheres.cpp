@@ -61,20 +61,36 @@ void fit(Object& object, const SphereOptions& options, const Scene& scene, const
   if (set.deforms) spheres::addAnchors(set, scene);
 }
 
+std::string spheresText(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "sphere" : "spheres");
+}
+
+/// Among others, an object that its few spheres misrepresent casts nothing.
+void judge(SphereSet& set) {
+  if (set.figures.relativeSum() <= kTooLoose) return;
+  set.receive_only =
+      fmt::format("thin: {} would hold {:.0f} times its volume of air; a larger count may serve",
+                  spheresText(set.spheres.size()), set.figures.relativeSum());
+  set.spheres.clear(), set.anchors.clear(), set.first_anchor.clear();
+}
+
 void remark(const Object& object, Warnings& warnings) {
   const auto say = [&](const std::string& what) { warnings.push_back(object.set.name + ": " + what); };
   if (!object.casts()) {
     say(fmt::format("only receives ({})", object.set.receive_only));
-  } else if (object.solid.shell) {
+    return;
+  }
+  if (object.solid.shell) {
     say("encloses nothing: taken as a sheet of some thickness");
   } else if (!object.solid.closed) {
     say("is not closed: its inside follows from winding numbers");
   } else if (object.solid.inverted) {
     say("faces inward: turned");
   }
-  const int got = int(object.set.spheres.size());
-  if (object.casts() && got < object.count)
-    say(fmt::format("{} spheres are enough, {} were asked for", got, object.count));
+  const std::size_t got = object.set.spheres.size();
+  if (int(got) < object.count) {
+    say(fmt::format("{} of {} serve, more would hold no less air", spheresText(got), object.count));
+  }
 }
 
 }  // namespace
@@ -103,11 +119,7 @@ SceneSpheres bakeSpheres(const Scene& scene, const SphereOptions& options, const
             part(progress, 0.1 + 0.9 * done / work, 0.1 + 0.9 * (done + double(object.count)) / work,
                  "spheres: " + object.set.name));
         done += double(object.count);
-        if (objects.size() > 1 && !object.solid.shell && object.set.figures.relativeSum() > kTooLoose) {
-          object.set.receive_only = fmt::format("thin: {} spheres would hold {:.0f} times its volume of air",
-                                                object.set.spheres.size(), object.set.figures.relativeSum());
-          object.set.spheres.clear(), object.set.anchors.clear(), object.set.first_anchor.clear();
-        }
+        if (objects.size() > 1) judge(object.set);
       }
       remark(object, result.warnings);
       result.sets.push_back(std::move(object.set));

@@ -13,6 +13,7 @@
 namespace gloam::spheres {
 namespace {
 
+constexpr float kRound = 0.02f;        // a bounding sphere that holds no more air than this share: a ball
 constexpr float kEvenStretch = 0.98f;  // least over greatest stretch that still counts as even
 
 std::string nameOf(const Scene& scene, const Node& node, std::size_t index) {
@@ -159,6 +160,8 @@ void spreadCount(std::vector<Object>& objects, int count) {
   }
   // What one more sphere takes off V_1 k^(-2/3); large pieces first, as long as one fits.
   const auto gain = [](const Object& object) {
+    const float volume = object.solid.volume * object.world_scale3;
+    if (object.bounding_outside < kRound * volume) return 0.0;
     const auto k = double(object.count);
     return double(object.bounding_outside) * (std::pow(k, -2.0 / 3.0) - std::pow(k + 1.0, -2.0 / 3.0));
   };
@@ -168,7 +171,7 @@ void spreadCount(std::vector<Object>& objects, int count) {
       if (!object.casts() || long(object.places) > left) continue;
       if (best == nullptr || gain(object) > gain(*best)) best = &object;
     }
-    if (best == nullptr) break;
+    if (best == nullptr || (gain(*best) <= 0.0 && objects.size() > 1)) break;
     ++best->count;
     left -= long(best->places);
   }

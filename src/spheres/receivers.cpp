@@ -12,7 +12,8 @@
 namespace gloam::spheres {
 namespace {
 
-constexpr float kFlat = 0.1f;  // least extent over the middle one
+constexpr float kMostTiles = 64.0f;  // squares as broad as it is thick that make up one side of a plate
+constexpr float kFlat = 0.1f;        // least extent over the middle one
 constexpr float kRoomShare =
     0.75f;  // of all directions from within that meet a wall; a box without a side has 5/6
 constexpr float kRoomSize = 2.0f;  // a room is that many times as long as what stands in it
@@ -63,13 +64,19 @@ bool isRoom(const std::vector<Object>& objects, std::size_t index, const PosedSc
   });
 }
 
+/// How many spheres a plate asks for. A ring is as flat as a plate, but asks for few.
+float tilesOf(const Solid& solid) {
+  const float thickness = solid.extents.z;
+  return thickness > 0.0f ? 0.5f * solid.area / (thickness * thickness) : INFINITY;
+}
+
 }  // namespace
 
 void markReceivers(std::vector<Object>& objects, const PosedScene& posed) {
   for (Object& object : objects) {
     if (object.solid.degenerate()) {
       object.set.receive_only = "no area";
-    } else if (object.solid.flatness() < kFlat) {
+    } else if (object.solid.flatness() < kFlat && tilesOf(object.solid) > kMostTiles) {
       object.set.receive_only = fmt::format("flat: {:.3f} as thick as broad", object.solid.flatness());
     }
   }

@@ -19,6 +19,7 @@ constexpr int kEpochs = 12, kMendRounds = 8;
 constexpr float kMovesPerBall = 40.0f, kMovesBase = 1000.0f;
 constexpr float kTolerance = 1.3f,
                 kMostTolerance = 0.08f;  // of the mean cost of a ball, of the sum; at first
+constexpr float kSeam = 1.0f / 32.0f;  // of that: pieces across the seam of two balls that one of them takes
 constexpr float kFinest = 0.004f,
                 kLargestFinest = 1.0f / 400.0f;  // of the root of the area; of the solid's length
 
@@ -113,11 +114,7 @@ std::vector<Ball> findBalls(const Solid& solid, const SearchOptions& options, co
   }
   std::vector<Ball> balls = std::move(fits.front());
   std::erase_if(balls, [](const Ball& ball) { return ball.radius <= 0.0f; });
-  for (int round = 0; round < kMendRounds; ++round) {
-    const std::vector<glm::vec3> missed = uncoveredPoints(solid.soup, balls, finest);
-    if (missed.empty()) break;
-    growOver(missed, balls);
-  }
+  growOver(solid.soup, balls, kSeam * finest);
   return balls;
 }
 

@@ -127,9 +127,19 @@ TEST(Surface, UncoveredPointsAreFoundAndGrownOver) {
   const std::vector<glm::vec3> missed = uncoveredPoints(soup, balls, 0.01f);
   EXPECT_GE(missed.size(), 8u);
   for (const glm::vec3& p : missed) EXPECT_FALSE(holds(balls[0], p));
-  growOver(missed, balls);
+  growOver(soup, balls, 0.01f);
   EXPECT_TRUE(uncoveredPoints(soup, balls, 0.01f).empty());
   EXPECT_NEAR(balls[0].radius, std::sqrt(0.75f), 1e-4f);
+}
+
+TEST(Surface, NoGapStaysAlongTheSeamOfTwoBalls) {
+  // Two balls that meet in the circle of a tube's surface, so that it lies in neither just there.
+  const Soup tube = soupOf(shapes::cylinder(0.2f, 2.0f, 0.02f, 64, 8));
+  std::vector<Ball> balls{{{0, 0.45f, 0}, 0.58f}, {{0, 1.55f, 0}, 0.58f}};
+  EXPECT_LT(coveredShare(sampleSurface(tube, 50000, 1), balls), 0.9999);
+  growOver(tube, balls, 0.001f);
+  EXPECT_EQ(coveredShare(sampleSurface(tube, 200000, 1), balls), 1.0);
+  EXPECT_LT(balls[0].radius + balls[1].radius, 1.2f);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace gloam::spheres {
 namespace {
 
 constexpr std::size_t kBlock = 4096;  // triangles a task
-constexpr int kDeepest = 14;          // halvings of an edge
+constexpr int kDeepest = 18;          // halvings of an edge
 
 struct Loose {
   glm::vec3 point;
@@ -36,22 +36,21 @@ bool anyHolds(const std::vector<Ball>& balls, const glm::vec3& a, const glm::vec
       balls, [&](const Ball& ball) { return holds(ball, a) && holds(ball, b) && holds(ball, c); });
 }
 
-void collect(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int depth, float finest,
-             const std::vector<Ball>& balls, std::vector<Loose>& loose) {
+/// Calls visit(a, b, c) for the pieces, with edges of at most `finest`, that no single ball holds.
+template <class Visit>
+void forPieces(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int depth, float finest,
+               const std::vector<Ball>& balls, const Visit& visit) {
   if (anyHolds(balls, a, b, c)) return;
   const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
   if (longest <= finest || depth == 0) {
-    for (const glm::vec3& p : {a, b, c}) {
-      const float excess = excessOf(p, balls);
-      if (excess > 0.0f) loose.push_back({p, excess});
-    }
+    visit(a, b, c);
     return;
   }
   const glm::vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
-  collect(a, ab, ca, depth - 1, finest, balls, loose);
-  collect(ab, b, bc, depth - 1, finest, balls, loose);
-  collect(ca, bc, c, depth - 1, finest, balls, loose);
-  collect(ab, bc, ca, depth - 1, finest, balls, loose);
+  forPieces(a, ab, ca, depth - 1, finest, balls, visit);
+  forPieces(ab, b, bc, depth - 1, finest, balls, visit);
+  forPieces(ca, bc, c, depth - 1, finest, balls, visit);
+  forPieces(ab, bc, ca, depth - 1, finest, balls, visit);
 }
 
 }  // namespace
@@ -91,7 +90,13 @@ std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>
   tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t block) {
     const std::size_t end = std::min((block + 1) * kBlock, soup.triangleCount());
     for (std::size_t t = block * kBlock; t < end; ++t) {
-      collect(soup.corner(t, 0), soup.corner(t, 1), soup.corner(t, 2), kDeepest, finest, balls, found[block]);
+      forPieces(soup.corner(t, 0), soup.corner(t, 1), soup.corner(t, 2), kDeepest, finest, balls,
+                [&](const auto&... corners) {
+                  for (const glm::vec3& p : {corners...}) {
+                    const float excess = excessOf(p, balls);
+                    if (excess > 0.0f) found[block].push_back({p, excess});
+                  }
+                });
     }
   });
   std::map<std::tuple<int, int, int>, Loose> farthest;
@@ -107,16 +112,21 @@ std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>
   return points;
 }
 
-void growOver(const std::vector<glm::vec3>& points, std::vector<Ball>& balls) {
-  for (const glm::vec3& p : points) {
+void growOver(const Soup& soup, std::vector<Ball>& balls, float finest) {
+  const auto growOverPiece = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     Ball* cheapest = nullptr;
     float least = INFINITY, radius = 0.0f;
     for (Ball& ball : balls) {
-      const float distance = glm::distance(p, ball.center);
-      const float growth = ballVolume(distance) - ballVolume(ball.radius);
-      if (growth < least) least = growth, cheapest = &ball, radius = distance;
+      const float farthest = std::max(
+          {glm::distance(a, ball.center), glm::distance(b, ball.center), glm::distance(c, ball.center)});
+      const float growth = ballVolume(farthest) - ballVolume(ball.radius);
+      if (growth < least) least = growth, cheapest = &ball, radius = farthest;
     }
     if (cheapest != nullptr && least > 0.0f) cheapest->radius = radius * (1.0f + 1e-5f);
+  };
+  for (std::size_t t = 0; t < soup.triangleCount(); ++t) {
+    forPieces(soup.corner(t, 0), soup.corner(t, 1), soup.corner(t, 2), kDeepest, finest, balls,
+              growOverPiece);
   }
 }
 

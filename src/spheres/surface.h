@@ -22,7 +22,8 @@ double coveredShare(const std::vector<glm::vec3>& points, const std::vector<Ball
 /// `finest`, and corners are tested. Of each cube of that size ten times over the point that lies farthest out.
 std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>& balls, float finest);
 
-/// Makes the balls hold these points by growing, for each, the one that pays least for it.
-void growOver(const std::vector<glm::vec3>& points, std::vector<Ball>& balls);
+/// Makes the balls hold all of the surface, for certain: pieces with edges of `finest` that lie across several balls are
+/// held by one of them after it has grown, the one that pays least for it.
+void growOver(const Soup& soup, std::vector<Ball>& balls, float finest);
 
 }  // namespace gloam::spheres
