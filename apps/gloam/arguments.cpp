@@ -70,6 +70,14 @@ double parseNumber(const std::string& place, const std::string& text, Range rang
   return parseInRange<double>(place, text, range, "a number");
 }
 
+float parseAboveZero(const std::string& place, const std::string& text) {
+  float value = 0.0f;
+  if (!parseWhole(text, value) || !(value > 0.0f) || !std::isfinite(value)) {
+    throw Error(place, fmt::format("'{}': expected a number above 0", text));
+  }
+  return value;
+}
+
 int parseInteger(const std::string& place, const std::string& text, Range range) {
   return parseInRange<int>(place, text, range, "a whole number");
 }

@@ -23,6 +23,8 @@ struct Range {
 };
 
 double parseNumber(const std::string& place, const std::string& text, Range range);
+/// For what has to be more than nothing.
+float parseAboveZero(const std::string& place, const std::string& text);
 int parseInteger(const std::string& place, const std::string& text, Range range);
 /// "x,y,z".
 glm::vec3 parseVector(const std::string& place, const std::string& text);

@@ -36,16 +36,18 @@ void addReferenceOptions(CLI::App& app, CompareChoice& choice) {
            "as the scene is baked, else 1");
   addCount(app, "--spp", choice.samples, {1, 1 << 24}, "paths a pixel; with --noise at most so many",
            "64; 65536 with --noise");
-  addNumber(app, "--noise", choice.noise, {0.0, 1.0}, "X",
-            "go on until noise is this part of the picture's light (0.01: 1 %)")
+  const auto setNoise = [&choice](const std::string& text) {
+    choice.noise = parseAboveZero("--noise", text);
+  };
+  app.add_option_function<std::string>(
+         "--noise", setNoise,
+         "go on until noise, an upper estimate, is this part of the picture's light (0.01: 1 %)")
+      ->type_name("X")
       ->group("Reference");
-  addInteger(app, "--sh-order", choice.environment_order, {0, 6}, "N",
-             "light the reference by the environment's N bands of spherical harmonics; 0: by its pixels")
-      ->default_str("0")
-      ->group("Reference");
-  addInteger(app, "--seed", choice.seed, {0, 2147483647}, "N", "of the reference's chance")
-      ->default_str("0")
-      ->group("Reference");
+  addCount(app, "--sh-order", choice.environment_order, {0, 6},
+           "light the reference by the environment's N bands of spherical harmonics; 0: by its pixels",
+           "0, or as a given reference was lit");
+  addCount(app, "--seed", choice.seed, {0, 2147483647}, "of the reference's chance", "0");
 }
 
 std::function<int()> declareCompare(CLI::App& app, Console& console) {

@@ -3,7 +3,7 @@
 #include "compare_reference.h"
 
 #include <fmt/core.h>
-#include <scene/scene_fingerprint.h>
+#include <scene/drawn_fingerprint.h>
 
 #include <algorithm>
 #include <charconv>
@@ -44,6 +44,7 @@ ReferencePicture pictureOf(LayeredImage layers, const fs::path& file) {
 void requireFinite(const LayeredImage& image, const fs::path& file) {
   const std::size_t width = std::size_t(image.width);
   for (const Layer& layer : image.layers) {
+    if (layer.name == "variance") continue;  // infinite where a pixel has one sample: not known
     const auto bad = std::ranges::find_if(layer.pixels, [](float value) { return !std::isfinite(value); });
     if (bad == layer.pixels.end()) continue;
     const std::size_t at = std::size_t(bad - layer.pixels.begin()), channels = layer.channels.size();
@@ -82,8 +83,12 @@ std::optional<ReferencePicture> readKept(const fs::path& file, const std::string
 }
 
 std::string samplesText(const ReferencePicture& picture, const std::string& more) {
-  return fmt::format("{} paths a pixel, {} {}, {}", countText(std::size_t(picture.samples.value_or(0))),
-                     picture.bounces, picture.bounces == 1 ? "bounce" : "bounces", more);
+  const std::string light =
+      picture.environment_order == 0
+          ? ""
+          : fmt::format("lit by {} bands of spherical harmonics, ", picture.environment_order);
+  return fmt::format("{} paths a pixel, {} {}, {}{}", countText(std::size_t(picture.samples.value_or(0))),
+                     picture.bounces, picture.bounces == 1 ? "bounce" : "bounces", light, more);
 }
 
 /// A checkpoint that cannot be used (of other inputs, damaged) is nobody's but this folder's: it goes.
@@ -120,6 +125,24 @@ ReferencePicture readReference(const fs::path& file) {
   ReferencePicture picture = pictureOf(std::move(layers), file);
   picture.text = samplesText(picture, file.string());
   return picture;
+}
+
+bool checkReference(const ReferencePicture& reference, const ReferenceScene& scene) {
+  const auto& attributes = reference.layers.attributes;
+  bool all = true;
+  const auto check = [&](const char* name, const Fingerprint& here, const char* what) {
+    const auto found = attributes.find(name);
+    all &= found != attributes.end();
+    if (found == attributes.end() || found->second == here.text()) return;
+    throw Error("--reference", fmt::format("{} is a picture {}", reference.file.string(), what));
+  };
+  check("gloam.scene", drawnFingerprint(scene.scene, scene.posed),
+        "of another scene, or of this one at another time; expected the scene that is compared");
+  check("gloam.environment_light", drawnFingerprint(scene.environment),
+        "under another light; expected the same --env, --env-rotation and --env-intensity");
+  check("gloam.camera", drawnFingerprint(scene.camera),
+        "from another camera; expected the view that is compared");
+  return all;
 }
 
 ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOptions& options, int samples,

@@ -27,13 +27,16 @@ struct ReferencePicture {
 /// finite.
 ReferencePicture readReference(const std::filesystem::path& file);
 
-/// What is traced.
+/// What a reference is of.
 struct ReferenceScene {
   const Scene& scene;
   const PosedScene& posed;
   const PosedCamera& camera;
   const Environment& environment;
 };
+/// Throws Error where a reference that was given is of another scene, light or camera. False where it does not say.
+bool checkReference(const ReferencePicture& reference, const ReferenceScene& scene);
+
 /// `file` where it holds what this call would trace, with as many samples at least or as little noise; else traces, and
 /// writes it there. Interrupted work lies beside it and is taken up again.
 ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOptions& options, int samples,

@@ -139,4 +139,19 @@ std::vector<std::string> resultsTable(const CompareResults& results) {
   return lines;
 }
 
+std::string noiseRemark(const CompareResults& results) {
+  constexpr double kNear =
+      1.5;  // an error of so many times the noise is noise to a good part; index.html says so too
+  const double noise = results.reference_relative_noise.value_or(0.0);
+  const auto hidden = std::ranges::count_if(results.techniques, [&](const TechniqueResult& result) {
+    return result.sum && result.sum->relative_rmse < kNear * noise;
+  });
+  if (hidden == 0) return "";
+  return fmt::format(
+      "the reference's own noise is {:.2g} %, and {} of {} errors {} hardly above it: a reference of more "
+      "samples "
+      "(--spp) tells more",
+      100.0 * noise, hidden, results.techniques.size(), hidden == 1 ? "is" : "are");
+}
+
 }  // namespace gloam::cli

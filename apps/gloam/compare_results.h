@@ -48,6 +48,8 @@ struct CompareResults {
 Json resultsJson(const CompareResults& results);
 /// A line a technique and layer, under a line of names; empty where a measure does not apply.
 std::string resultsCsv(const CompareResults& results);
+/// What the reference's noise leaves open about the results, in one line; empty where it is well below all errors.
+std::string noiseRemark(const CompareResults& results);
 /// A table for people.
 std::vector<std::string> resultsTable(const CompareResults& results);
 

@@ -189,9 +189,9 @@ void haveReference(Comparison& work, const Progress& progress, Console& console)
     options.width = choice.view.size.x, options.height = choice.view.size.y;
     options.supersample = choice.view.supersample;
     options.bounces = work.stage.bounces;
-    options.environment_order = choice.environment_order;
+    options.environment_order = choice.environment_order.value_or(0);
     options.background = false;
-    options.seed = std::uint64_t(choice.seed);
+    options.seed = std::uint64_t(choice.seed.value_or(0));
     constexpr int kSamples = 64, kSamplesByNoise = 65536;
     const int samples = choice.samples.value_or(choice.noise > 0.0f ? kSamplesByNoise : kSamples);
     work.reference =
@@ -208,6 +208,14 @@ void haveReference(Comparison& work, const Progress& progress, Console& console)
 
 /// Pictures are drawn as the reference is, unless that contradicts what was asked for.
 ReferencePicture takeReference(CompareChoice& choice) {
+  const std::pair<const char*, bool> of_tracing[] = {{"--spp", choice.samples.has_value()},
+                                                     {"--noise", choice.noise > 0.0f},
+                                                     {"--seed", choice.seed.has_value()}};
+  for (const auto& [option, asked] : of_tracing) {
+    if (!asked) continue;
+    throw Error(option, fmt::format("says how a reference is traced; {} is there already (--reference)",
+                                    choice.reference));
+  }
   ReferencePicture given = readReference(choice.reference);
   const glm::ivec2 size{given.layers.width, given.layers.height};
   const auto require = [&](bool same, const char* option, const std::string& asked, const std::string& has) {
@@ -225,12 +233,28 @@ ReferencePicture takeReference(CompareChoice& choice) {
     require(*choice.bounces == given.bounces, "--bounces", std::to_string(*choice.bounces),
             std::to_string(given.bounces));
   }
+  if (choice.environment_order) {
+    require(*choice.environment_order == given.environment_order, "--sh-order",
+            std::to_string(*choice.environment_order), std::to_string(given.environment_order));
+  }
   choice.view.size = size;
   choice.view.supersample = given.supersample;
   return given;
 }
 
-void checkGivenReference(Comparison& work) {
+void checkGivenReference(Comparison& work, bool order_given, Console& console) {
+  const ReferencePicture& given = work.reference;
+  const CompareStage& stage = work.stage;
+  if (!checkReference(given, {stage.scene, stage.posed, stage.camera, stage.environment})) {
+    console.remark(
+        fmt::format("{} does not say what it is a picture of: that scene, light and camera are those of "
+                    "this comparison cannot be checked",
+                    work.choice.reference));
+  }
+  if (!order_given && given.environment_order > 0) {
+    console.remark(fmt::format("{} is lit by {} bands of spherical harmonics (--sh-order)",
+                               work.choice.reference, given.environment_order));
+  }
   for (const Contender& contender : work.contenders) {
     imageOf(work.reference.layers, both(contender.technique->covers, work.stage.in_scene),
             work.choice.reference);
@@ -258,7 +282,8 @@ int runCompare(CompareChoice choice, Console& console) {
                   {},
                   {},
                   {}};
-  if (!work.choice.reference.empty()) checkGivenReference(work);
+  if (!work.choice.reference.empty())
+    checkGivenReference(work, work.choice.environment_order.has_value(), console);
   bakeCompareStage(work.stage, work.choice, work.contenders, console);
   haveSpheres(work, console);
   work.results.scene = work.choice.scene.name;
@@ -281,6 +306,7 @@ int runCompare(CompareChoice choice, Console& console) {
     for (const std::string& line : resultsTable(work.results)) console.print(line);
     console.remark(fmt::format("wrote {}", work.folder.file("index.html").string()));
   }
+  if (const std::string remark = noiseRemark(work.results); !remark.empty()) console.remark(remark);
   return kDone;
 }
 

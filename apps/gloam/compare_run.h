@@ -22,10 +22,8 @@ struct CompareChoice {
   TechniqueChoice options;  ///< of techniques, for all contenders of that name
   std::string techniques;   ///< compare_plan.h; empty: all that can light the scene
   std::string reference, output, device;
-  std::optional<int> bounces, samples;
+  std::optional<int> bounces, samples, environment_order, seed;
   float noise = 0.0f;
-  int environment_order = 0;
-  int seed = 0;
   int frames = 20;
   std::optional<float> exposure_stops;  ///< of the page; nothing: found in the reference
   bool use_cache = true;

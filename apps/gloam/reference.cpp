@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <gloam/reference.h>
 
+#include <cmath>
+
 #include "display_choice.h"
 #include "frame_plan.h"
 #include "json.h"
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSamples = 64, kMostSamples = 65536;  // by default, without and with --noise
 constexpr int kLargestSamples = 1 << 24;
+constexpr double kMuchNoise = 0.2;  // errors of techniques are seldom larger
 
 struct ReferenceChoice {
   SceneChoice scene;
@@ -64,6 +67,11 @@ struct Total {
   }
   double raysPerSecond() const { return seconds > 0.0 ? double(rays) / seconds : 0.0; }
 };
+
+std::string noiseText(double noise) {
+  if (!std::isfinite(noise)) return "not known";
+  return noise < 0.1 ? fmt::format("{:.2g} %", 100.0 * noise) : fmt::format("{:.0f} %", 100.0 * noise);
+}
 
 // A sequence has none: its finished frames are there, the one in hand begins anew.
 fs::path checkpointOf(const ReferenceChoice& choice, std::size_t frames) {
@@ -148,8 +156,8 @@ void printResult(const ReferenceChoice& choice, const Stage& stage, const Total&
                  const std::vector<fs::path>& files, Console& console) {
   if (!console.json) {
     const std::string more = files.size() > 1 ? fmt::format(" to {}", files.back().filename().string()) : "";
-    console.remark(fmt::format("wrote {}{} ({} samples a pixel, noise {:.2g} %, {:.1f} Mrays/s, {}{})",
-                               files.front().string(), more, total.samples, 100.0 * total.noise,
+    console.remark(fmt::format("wrote {}{} ({} samples a pixel, noise {}, {:.1f} Mrays/s, {}{})",
+                               files.front().string(), more, total.samples, noiseText(total.noise),
                                total.raysPerSecond() / 1e6, durationText(total.seconds),
                                total.resumed ? "; resumed" : ""));
     return;
@@ -206,10 +214,15 @@ int runReference(ReferenceChoice choice, Console& console) {
     console.remark(
         fmt::format("nothing in the scene sends light of the kind that was asked for ({})", total.light));
   }
+  if (choice.noise == 0.0f && std::isfinite(total.noise) && total.noise > kMuchNoise) {
+    console.remark(
+        fmt::format("a noise of {} leaves little to hold against: four times the samples (--spp) halve it",
+                    noiseText(total.noise)));
+  }
   printResult(choice, stage, total, output->finish(), console);
   if (choice.noise == 0.0f || total.noise <= double(choice.noise)) return kDone;
-  console.remark(fmt::format("noise is still {:.2g} % after {} samples; {:.2g} % was asked for",
-                             100.0 * total.noise, total.samples, 100.0 * double(choice.noise)));
+  console.remark(fmt::format("noise is still {} after {} samples; {} was asked for", noiseText(total.noise),
+                             total.samples, noiseText(double(choice.noise))));
   return kBoundExceeded;
 }
 
@@ -223,13 +236,11 @@ void addPathOptions(CLI::App& app, ReferenceChoice& choice) {
   add("--spp", choice.samples, {1, kLargestSamples},
       "samples a pixel; with --noise: at most (default: 64, with --noise 65536)");
   const auto setNoise = [&choice](const std::string& text) {
-    const double noise = parseNumber("--noise", text, {0.0, 1e3});
-    if (!(float(noise) > 0.0f)) throw Error("--noise", fmt::format("'{}': expected a number above 0", text));
-    choice.noise = float(noise);
+    choice.noise = parseAboveZero("--noise", text);
   };
   app.add_option_function<std::string>(
          "--noise", setNoise,
-         "go on until the picture's standard error is this part of its mean: 0.01 is 1 %")
+         "go on until the picture's standard error, an upper estimate, is this part of its mean: 0.01 is 1 %")
       ->type_name("X")
       ->group("Paths");
   add("--sh-order", choice.options.environment_order, {0, 6},

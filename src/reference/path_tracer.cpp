@@ -11,6 +11,7 @@
 #include "reference/path_tracer_state.h"
 #include "reference/reference_file.h"
 #include "scene/checkpoint_file.h"
+#include "scene/drawn_fingerprint.h"
 
 namespace gloam {
 
@@ -158,6 +159,9 @@ PathTracer::PathTracer(const Scene& scene, const PosedScene& posed, const PosedC
   checkOptions(options);
   impl_->options = options;
   impl_->fingerprint = fingerprintOf(scene, posed, camera, environment, options);
+  impl_->scene = drawnFingerprint(scene, posed).text();
+  impl_->environment_light = drawnFingerprint(environment).text();
+  impl_->camera = drawnFingerprint(camera).text();
   impl_->integrator = std::make_unique<Integrator>(scene, posed, camera, environment, options, progress);
   try {
     impl_->sums = makePathSums(options, *impl_->integrator);

@@ -65,7 +65,10 @@ std::map<std::string, std::string> attributesOf(const TracerState& state, const 
           {"gloam.supersample", std::to_string(options.supersample)},
           {"gloam.environment_order", std::to_string(options.environment_order)},
           {"gloam.background", options.background ? "1" : "0"},
-          {"gloam.seed", std::to_string(options.seed)}};
+          {"gloam.seed", std::to_string(options.seed)},
+          {"gloam.scene", state.scene},
+          {"gloam.environment_light", state.environment_light},
+          {"gloam.camera", state.camera}};
 }
 
 }  // namespace

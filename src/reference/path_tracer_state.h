@@ -72,7 +72,8 @@ double noiseOf(const PathSums& sums);
 
 struct TracerState {
   ReferenceOptions options;
-  Fingerprint fingerprint;  ///< of all that samples depend on
+  Fingerprint fingerprint;                       ///< of all that samples depend on
+  std::string scene, environment_light, camera;  ///< drawnFingerprint() of each, as text
   std::unique_ptr<Integrator> integrator;
   PathSums sums;
   std::vector<CameraPoint> points;  ///< [pixel][position]; empty where that would be too much: found again

@@ -152,6 +152,37 @@ class Results(Compared):
         for name in MEASURES:
             self.assertEqual(given["techniques"][0][name], self.results["techniques"][1][name])
         self.assertFalse((self.shared / "given" / "reference.exr").exists())
+        self.assertNotIn("cannot be checked", answer.stderr)
+
+    def given(self, reference, *more, scene="box.glb", light=("--env", "sky:noon")):
+        return self.shared_gloam("compare", scene, "--techniques", "irradiance", *light, "--frames", "1", "--reference", reference, *more,
+                                 "-o", "other", "--json")
+
+    def test_a_reference_of_something_else_is_refused(self):
+        for says, case in {
+                "another scene": {"scene": "builtin:cornell?detail=0.25"},
+                "another light": {"light": ("--env", "sky:noon", "--env-rotation", "90")},
+                "--env-intensity": {"light": ("--env", "sky:noon", "--env-intensity", "2")},
+                "--env": {"light": ("--env", "sky:overcast")}}.items():
+            answer = self.given("out/reference.exr", **case)
+            self.assertEqual((answer.returncode, answer.stderr.count("\n")), (2, 1), answer.stderr)
+            self.assertIn("out/reference.exr", answer.stderr)
+            self.assertIn(says, answer.stderr)
+        for more, says in (["--eye", "3,1,2"], "another camera"), (["--fov", "20"], "another camera"), (["--sh-order", "3"], "--sh-order: 3"), \
+                (["--spp", "9"], "--spp"), (["--noise", "0.1"], "--noise"), (["--seed", "1"], "--seed"):
+            answer = self.given("out/reference.exr", *more)
+            self.assertEqual((answer.returncode, answer.stderr.count("\n")), (2, 1), answer.stderr)
+            self.assertIn(says, answer.stderr)
+        self.assertFalse((self.shared / "other").exists())
+
+    def test_a_bake_is_the_scene_that_it_was_made_from(self):
+        self.shared_gloam("scene", BOX.removeprefix("builtin:"), "-o", "plain.glb")
+        self.shared_gloam("reference", "plain.glb", *VIEW, "--no-background", "--spp", "1", "--sh-order", "3", "--parts", "-o", "plain.exr")
+        answer = self.given("plain.exr")  # of one sample: its variance is infinite
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertIn("plain.exr is lit by 3 bands", answer.stderr)
+        self.assertEqual(json.loads(answer.stdout)["environment_order"], 3)
+        shutil.rmtree(self.shared / "other")
 
 
 class Interrupted(CliTest):
@@ -197,7 +228,8 @@ class Refused(CliTest):
         self.refused("--spp", "0", says=["--spp", "0"])
         self.refused("--bounces", "-1", says="--bounces")
         self.refused("--sh-order", "7", says="--sh-order")
-        self.refused("--noise", "nan", says="--noise")
+        for noise in "nan", "0", "-1":
+            self.refused("--noise", noise, says=["--noise", noise, "expected a number above 0"])
         self.refused("--frames", "0", says="--frames")
 
     def test_where_to(self):
@@ -228,6 +260,13 @@ class References(CliTest):
     def test_that_does_not_say_what_it_holds(self):
         self.reference(attributes={})
         self.refused(says=["truth.exr", "gloam reference"])
+
+    def test_that_does_not_say_what_it_shows(self):
+        self.reference(attributes=self.LIGHT | {"gloam.light": "environment_direct local_direct"})
+        answer = self.succeed("compare", BOX, "--env", "sky:noon", "--techniques", "irradiance", "--frames", "1", "--reference", "truth.exr",
+                              "-o", "out")
+        self.assertIn("truth.exr", answer.err)
+        self.assertIn("cannot be checked", answer.err)
 
     def test_of_another_size(self):
         self.reference()

@@ -34,6 +34,26 @@ class Pictures(CliTest):
         self.assertIn("gloam.samples: 8", self.succeed("info", "a.exr").out)
         self.assertFalse(self.path("a.exr.checkpoint").exists())
 
+    def test_says_what_it_is_a_picture_of(self):
+        def prints(*arguments):
+            self.succeed("reference", BOX, "--size", "8", "--spp", "1", *arguments, "-o", "a.exr")
+            attributes = self.attributes("a.exr")
+            return [attributes[f"gloam.{name}"] for name in ("scene", "environment_light", "camera")]
+
+        plain = prints(*SKY)
+        self.assertEqual(plain, prints(*SKY, "--seed", "4", "--bounces", "0", "--sh-order", "2"))
+        for place, other in enumerate((prints(*SKY, "--ground", "--eye", "2,3,4", "--target", "0,0,0"), prints(*SKY, "--env-intensity", "2"),
+                                       prints(*SKY, "--fov", "20"))):
+            self.assertNotEqual(plain[place], other[place])
+            if place > 0:
+                self.assertEqual(plain[0], other[0])
+
+    def test_much_noise_is_remarked(self):
+        few = self.succeed("reference", "builtin:lamp", "--size", "24", "--spp", "2", "-o", "a.exr")
+        self.assertIn("four times the samples", few.err)
+        calm = self.succeed("reference", "builtin:furnace?detail=0.25", "--size", "24", *SKY, "--spp", "16", "-o", "a.exr")
+        self.assertNotIn("four times the samples", calm.err)
+
     def test_geometry_is_that_of_a_render(self):
         for verb in "render", "reference":
             options = QUICK if verb == "reference" else []
@@ -236,6 +256,8 @@ class Interruptions(CliTest):
 
 class BadInput(CliTest):
     def test_options(self):
+        for value in "0", "-1":
+            self.refuse("reference", BOX, "--noise", value, "-o", "a.exr", says=[value, "expected a number above 0"])
         for option, value in ("--spp", 0), ("--spp", -4), ("--spp", "x"), ("--spp", 16777217), ("--noise", 0), ("--noise", -0.1), \
                 ("--noise", "nan"), ("--bounces", -1), ("--bounces", 1.5), ("--sh-order", 7), ("--threads", -1), ("--seed", -1), \
                 ("--only", "moon"), ("--only", "environment,lampz"), ("--size", "0x4"), ("--supersample", 5), ("--time", "inf"):

@@ -6,6 +6,12 @@ function sentence() {
   if (ranked.length === 0) return '';
   const say = ({technique, error}, verb) => `${technique.label}${verb} by ${percent(Math.sqrt(error))} (FLIP ${significant(technique.flip)}, ${milliseconds(technique.device_ms)} a frame)`;
   const [first, ...rest] = ranked;
+  const noise = results.reference.relative_noise, near = noise === null ? 0 : 1.5 * noise;  // as the terminal's remark
+  const hidden = ranked.filter(({error}) => Math.sqrt(error) < near);
+  if (hidden.length) {
+    const [last] = ranked.slice(-1), others = hidden.length < ranked.length ? ` ${say(last, ' is off')}.` : '';
+    return `${hidden.map(({technique, error}) => `${technique.label} (${percent(Math.sqrt(error))})`).join(', ')}: hardly above the reference’s own noise of ${percent(noise)}${hidden.length > 1 ? ', their order is chance' : ''}; a reference of more samples tells more.${others}`;
+  }
   if (rest.length < 2) return `${say(first, ' differs from its reference')}${rest.length ? `, ${say(rest[0], '')}` : ''}.`;
   return `Of ${ranked.length}, ${say(first, ' is nearest to its reference, off')}; ${say(rest[rest.length - 1], ' is off')}.`;
 }

@@ -25,6 +25,8 @@ function pixelError(picture, layer, pixel) {
 
 function errorText(picture, pixel) {
   if (picture.reference === null) return '';
+  const technique = results.techniques[picture.technique];
+  if (state.layer !== 'sum' && technique[state.layer].rmse === null) return '–';  // it claims none of that light
   const {relative, brighter} = pixelError(picture, state.layer, pixel);
   if (Number.isNaN(relative)) return '0 %';
   return `${brighter > 0 ? '▲' : brighter < 0 ? '▼' : ''} ${Number.isFinite(relative) ? percent(relative) : '∞'}`.trim();
