@@ -1,19 +1,23 @@
 // Head of the page, and its end: what was compared, and the commands that repeat it.
 
+/// As the terminal's remark: errors that are noise to a good part. The noise is that of all light: of techniques that
+/// cover less it says nothing.
+function noiseSentence(ranked) {
+  const noise = results.reference.relative_noise;
+  const hidden = ranked.filter(({technique, error}) => noise !== null && technique.leaves_out.length === 0 && Math.sqrt(error) < 1.5 * noise);
+  if (hidden.length === 0) return '';
+  return ` The reference’s own noise is ${percent(noise)}, and ${hidden.map(({technique}) => technique.label).join(', ')} hardly above it: a reference of more samples tells more.`;
+}
+
 function sentence() {
   const ranked = results.techniques.map((technique) => ({technique, error: technique.relative_squared_error}))
     .filter(({error}) => error !== null).sort((a, b) => a.error - b.error);
   if (ranked.length === 0) return '';
   const say = ({technique, error}, verb) => `${technique.label}${verb} by ${percent(Math.sqrt(error))} (FLIP ${significant(technique.flip)}, ${milliseconds(technique.device_ms)} a frame)`;
   const [first, ...rest] = ranked;
-  const noise = results.reference.relative_noise, near = noise === null ? 0 : 1.5 * noise;  // as the terminal's remark
-  const hidden = ranked.filter(({error}) => Math.sqrt(error) < near);
-  if (hidden.length) {
-    const [last] = ranked.slice(-1), others = hidden.length < ranked.length ? ` ${say(last, ' is off')}.` : '';
-    return `${hidden.map(({technique, error}) => `${technique.label} (${percent(Math.sqrt(error))})`).join(', ')}: hardly above the reference’s own noise of ${percent(noise)}${hidden.length > 1 ? ', their order is chance' : ''}; a reference of more samples tells more.${others}`;
-  }
-  if (rest.length < 2) return `${say(first, ' differs from its reference')}${rest.length ? `, ${say(rest[0], '')}` : ''}.`;
-  return `Of ${ranked.length}, ${say(first, ' is nearest to its reference, off')}; ${say(rest[rest.length - 1], ' is off')}.`;
+  const chance = noiseSentence(ranked);
+  if (rest.length < 2) return `${say(first, ' differs from its reference')}${rest.length ? `, ${say(rest[0], '')}` : ''}.${chance}`;
+  return `Of ${ranked.length}, ${say(first, ' is nearest to its reference, off')}; ${say(rest[rest.length - 1], ' is off')}.${chance}`;
 }
 
 function buildHead() {
