@@ -149,7 +149,7 @@ std::string noiseRemark(const CompareResults& results) {
   });
   if (hidden == 0) return "";
   return fmt::format(
-      "the reference's own noise is {:.2g} %, and {} of {} errors {} hardly above it: a reference of more "
+      "the reference's own noise is {:.2g} %, and {} of {} errors {} not clearly above it: a reference of more "
       "samples "
       "(--spp) tells more",
       100.0 * noise, hidden, results.techniques.size(), hidden == 1 ? "is" : "are");

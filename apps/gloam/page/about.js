@@ -6,7 +6,7 @@ function noiseSentence(ranked) {
   const noise = results.reference.relative_noise;
   const hidden = ranked.filter(({technique, error}) => noise !== null && technique.leaves_out.length === 0 && Math.sqrt(error) < 1.5 * noise);
   if (hidden.length === 0) return '';
-  return ` The reference’s own noise is ${percent(noise)}, and ${hidden.map(({technique}) => technique.label).join(', ')} hardly above it: a reference of more samples tells more.`;
+  return ` The reference’s own noise is ${percent(noise)}, with ${hidden.map(({technique}) => technique.label).join(', ')} not clearly off by more: a reference of more samples tells more.`;
 }
 
 function sentence() {
