@@ -32,7 +32,7 @@ std::optional<fs::path> cacheFolder() {
   return folder;
 }
 
-constexpr int kSearchVersion = 1;  // to be raised when the same options give other spheres
+constexpr int kSearchVersion = 2;  // to be raised when the same options give other spheres
 
 /// Changes with anything in the scene but its environment, with every option that changes the result, and with the version.
 std::string keyOf(const Scene& scene, const SphereOptions& options) {

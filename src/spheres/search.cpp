@@ -15,7 +15,7 @@ namespace gloam::spheres {
 namespace {
 
 constexpr std::size_t kFits = 4;
-constexpr int kEpochs = 12, kMendRounds = 8;
+constexpr int kEpochs = 12, kMendRounds = 16;
 constexpr float kMovesPerBall = 40.0f, kMovesBase = 1000.0f;
 constexpr float kTolerance = 1.3f,
                 kMostTolerance = 0.08f;  // of the mean cost of a ball, of the sum; at first
@@ -109,8 +109,8 @@ std::vector<Ball> findBalls(const Solid& solid, const SearchOptions& options, co
     for (const glm::vec3& p : missed) points.add(p);
     const double from = 0.8 + 0.2 * double(round) / kMendRounds;
     fits.resize(kFits / 2);
-    fits = runFits(occupancy, points, options, std::move(fits), 1, std::max(1, moves / 4), 0.0f,
-                   report(from, from + 0.2 / kMendRounds), progress);
+    fits = runFits(occupancy, points, options, std::move(fits), 1, std::max(1, moves >> (3 + round / 4)),
+                   0.0f, report(from, from + 0.2 / kMendRounds), progress);
   }
   std::vector<Ball> balls = std::move(fits.front());
   std::erase_if(balls, [](const Ball& ball) { return ball.radius <= 0.0f; });

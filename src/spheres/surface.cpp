@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;  // triangles a task
 constexpr int kDeepest = 18;          // halvings of an edge
+constexpr float kThin = 4.0f;         // cubes of that many pieces give one point each
 
 struct Loose {
   glm::vec3 point;
@@ -102,7 +103,7 @@ std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>
   std::map<std::tuple<int, int, int>, Loose> farthest;
   for (const std::vector<Loose>& block : found) {
     for (const Loose& loose : block) {
-      const glm::ivec3 cell(glm::floor(loose.point / (10.0f * finest)));
+      const glm::ivec3 cell(glm::floor(loose.point / (kThin * finest)));
       const auto [place, fresh] = farthest.try_emplace({cell.x, cell.y, cell.z}, loose);
       if (!fresh && loose.excess > place->second.excess) place->second = loose;
     }

@@ -19,7 +19,7 @@ inline bool holds(const Ball& ball, const glm::vec3& p) {
 double coveredShare(const std::vector<glm::vec3>& points, const std::vector<Ball>& balls);
 
 /// Points that no ball holds. Triangles whose corners lie in one ball are held; others are divided down to edges of
-/// `finest`, and corners are tested. Of each cube of that size ten times over the point that lies farthest out.
+/// `finest`, and corners are tested. Of each cube of a few times that size, the point that lies farthest out.
 std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>& balls, float finest);
 
 /// Makes the balls hold all of the surface, for certain: pieces with edges of `finest` that lie across several balls are
