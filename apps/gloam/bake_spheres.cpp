@@ -29,15 +29,19 @@ void checkOutput(const SpheresChoice& choice) {
   AtomicFile probe(choice.output);
 }
 
+std::string spheresText(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "sphere" : "spheres");
+}
+
 std::string setText(const SphereSet& set) {
   if (!set.receive_only.empty()) return fmt::format("{}: only receives ({})", set.name, set.receive_only);
   const SphereFigures& f = set.figures;
   const std::string places = set.nodes.size() > 1 ? fmt::format(", at {} nodes", set.nodes.size()) : "";
   return fmt::format(
-      "{}: {} {}{}; outside {:.2f} % of its volume (overlaps once: {:.2f} %); {:.3f} % of its "
+      "{}: {}{}; outside {:.2f} % of its volume (overlaps once: {:.2f} %); {:.3f} % of its "
       "surface covered",
-      set.name, set.spheres.size(), set.spheres.size() == 1 ? "sphere" : "spheres", places,
-      100.0 * f.relativeSum(), 100.0 * f.relativeUnion(), 100.0 * f.coverage);
+      set.name, spheresText(set.spheres.size()), places, 100.0 * f.relativeSum(), 100.0 * f.relativeUnion(),
+      100.0 * f.coverage);
 }
 
 Json setJson(const SphereSet& set) {
@@ -67,8 +71,8 @@ void printResult(const SpheresChoice& choice, const SceneSpheres& spheres, doubl
     return;
   }
   for (const SphereSet& set : spheres.sets) console.print(setText(set));
-  console.remark(
-      fmt::format("wrote {}: {} spheres in {}", choice.output, spheres.count(), durationText(seconds)));
+  console.remark(fmt::format("wrote {}: {} in {}", choice.output, spheresText(std::size_t(spheres.count())),
+                             durationText(seconds)));
 }
 
 int runBakeSpheres(SpheresChoice choice, Console& console) {

@@ -26,7 +26,7 @@ void checkOptions(const SphereOptions& options) {
   };
   check("count", options.count, 1, 4096);
   check("samples", options.samples, 500, 50000);
-  check("effort", double(options.effort), 0.01, 100);
+  check("effort", double(options.effort), double(0.01f), 100);
   check("threads", options.threads, 0, 1024);
 }
 

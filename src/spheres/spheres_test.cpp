@@ -127,6 +127,7 @@ TEST(Spheres, RefusesOptionsOutOfRangeAndEmptyScenes) {
   options.effort = NAN;
   EXPECT_THROW(bakeSpheres(scene, options), Error);
   EXPECT_THROW(bakeSpheres(Scene{}, quick(4)), Error);
+  EXPECT_NO_THROW(bakeSpheres(scene, quick(1, 0.01f)));
 }
 
 // ---- Odd meshes ---------------------------------------------------------------------------------------------------------
