@@ -149,7 +149,7 @@ TEST(PoseSpheres, MorphsAreFollowedWithoutAJump) {
 
 TEST(PoseSpheres, TheWalkerStaysCovered) {
   const Scene scene = loadScene("builtin:walker?detail=0.25");
-  const SceneSpheres spheres = bakeSpheres(scene, quick(22, 0.03f));
+  const SceneSpheres spheres = bakeSpheres(scene, quick(22, 0.02f));
   const auto figure = std::ranges::find_if(spheres.sets, [](const SphereSet& set) { return set.deforms; });
   ASSERT_NE(figure, spheres.sets.end());
   EXPECT_GT(figure->spheres.size(), 10u);
