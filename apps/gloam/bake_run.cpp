@@ -6,12 +6,12 @@
 #include <scene/animation.h>
 #include <techniques/prt/prt_bake_state.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 
 #include <image/atomic_file.h>
 
+#include "cache_folder.h"
 #include "json.h"
 #include "technique_choice.h"
 
@@ -26,25 +26,6 @@ std::string bakeKey(const Scene& scene, const BakeOptions& options) {
   Fingerprint key = prt::fingerprintOf(scene, options);
   add(key, std::string(GLOAM_VERSION));
   return key.text();
-}
-
-/// Where bakes are kept; nothing where there is no home or it cannot be written.
-std::optional<fs::path> cacheFolder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (cache != nullptr && fs::path(cache).is_absolute()) {
-    folder = cache;
-  } else if (home != nullptr && *home != '\0') {
-    folder = fs::path(home) / ".cache";
-  } else {
-    return std::nullopt;
-  }
-  folder = folder / "gloam" / "bakes";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return std::nullopt;
-  return folder;
 }
 
 /// A bake that was kept, or nothing; a file that cannot be read (an older gloam, a full disk then) is as good as none.
@@ -146,7 +127,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s,
 Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions options, bool use_cache,
                      Console& console, BakeTime* time) {
   const BakeEstimate estimate = estimateBake(scene, options);
-  const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
+  const std::optional<fs::path> folder = use_cache ? cacheFolder("bakes") : std::nullopt;
   fs::path file;
   if (folder) {
     const std::string key = bakeKey(scene, options);

@@ -5,32 +5,14 @@
 #include <fmt/core.h>
 #include <scene/scene_fingerprint.h>
 
-#include <cstdlib>
 #include <optional>
+
+#include "cache_folder.h"
 
 namespace gloam::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where sets are kept; nothing where there is no home or it cannot be written.
-std::optional<fs::path> cacheFolder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (cache != nullptr && fs::path(cache).is_absolute()) {
-    folder = cache;
-  } else if (home != nullptr && *home != '\0') {
-    folder = fs::path(home) / ".cache";
-  } else {
-    return std::nullopt;
-  }
-  folder = folder / "gloam" / "spheres";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return std::nullopt;
-  return folder;
-}
 
 constexpr int kSearchVersion = 2;  // to be raised when the same options give other spheres
 
@@ -58,7 +40,7 @@ std::optional<SceneSpheres> readKept(const fs::path& file, const Scene& scene) {
 SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache, Console& console,
                                int count) {
   const SphereOptions options{.count = count};
-  const std::optional<fs::path> folder = use_cache ? cacheFolder() : std::nullopt;
+  const std::optional<fs::path> folder = use_cache ? cacheFolder("spheres") : std::nullopt;
   fs::path file;
   if (folder) {
     file = *folder / (keyOf(scene, options) + ".spheres.json");
