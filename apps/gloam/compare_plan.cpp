@@ -9,20 +9,6 @@
 namespace gloam::cli {
 namespace {
 
-struct CoverageMember {
-  const char* name;
-  bool Coverage::*member;
-  bool direct;
-};
-constexpr CoverageMember kMembers[] = {
-    {"environment_direct", &Coverage::environment_direct, true},
-    {"environment_indirect", &Coverage::environment_indirect, false},
-    {"local_direct", &Coverage::local_direct, true},
-    {"local_indirect", &Coverage::local_indirect, false},
-    {"emitter_direct", &Coverage::emitter_direct, true},
-    {"emitter_indirect", &Coverage::emitter_indirect, false},
-};
-
 std::vector<std::string> splitAt(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
@@ -105,33 +91,13 @@ Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment&
   return light;
 }
 
-Coverage both(const Coverage& a, const Coverage& b) {
-  Coverage result;
-  for (const CoverageMember& m : kMembers) result.*m.member = a.*m.member && b.*m.member;
-  return result;
-}
-
-Coverage without(const Coverage& a, const Coverage& b) {
-  Coverage result;
-  for (const CoverageMember& m : kMembers) result.*m.member = a.*m.member && !(b.*m.member);
-  return result;
-}
-
-std::vector<std::string> coverageNames(const Coverage& coverage) {
-  std::vector<std::string> names;
-  for (const CoverageMember& m : kMembers) {
-    if (coverage.*m.member) names.emplace_back(m.name);
-  }
-  return names;
-}
-
 bool anyDirect(const Coverage& coverage) {
-  return std::ranges::any_of(kMembers,
+  return std::ranges::any_of(kCoverageMembers,
                              [&](const CoverageMember& m) { return m.direct && coverage.*m.member; });
 }
 
 bool anyIndirect(const Coverage& coverage) {
-  return std::ranges::any_of(kMembers,
+  return std::ranges::any_of(kCoverageMembers,
                              [&](const CoverageMember& m) { return !m.direct && coverage.*m.member; });
 }
 

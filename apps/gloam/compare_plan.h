@@ -5,6 +5,7 @@
 #pragma once
 
 #include <gloam/renderer.h>
+#include <scene/coverage.h>
 
 #include <string>
 #include <vector>
@@ -30,10 +31,6 @@ std::vector<Contender> allContenders(const TechniqueChoice& common);
 /// The light that a scene has at all. Without bounces nothing is indirect.
 Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces);
 
-Coverage both(const Coverage& a, const Coverage& b);
-Coverage without(const Coverage& a, const Coverage& b);
-/// "environment_direct", … of what is set, as `gloam list --json` names them.
-std::vector<std::string> coverageNames(const Coverage& coverage);
 bool anyDirect(const Coverage& coverage);
 bool anyIndirect(const Coverage& coverage);
 

@@ -4,6 +4,9 @@
 // gloam list: techniques with their options, built-in scenes and skies, devices, and the rows that work.
 #include <fmt/core.h>
 #include <gloam/renderer.h>
+#include <scene/coverage.h>
+
+#include <algorithm>
 
 #include "arguments.h"
 #include "json.h"
@@ -23,14 +26,9 @@ std::string valueText(const OptionValue& value) {
 }
 
 std::string coverageText(const Coverage& covers) {
-  std::vector<std::string> parts;
-  if (covers.environment_direct) parts.emplace_back("environment direct");
-  if (covers.environment_indirect) parts.emplace_back("environment indirect");
-  if (covers.local_direct) parts.emplace_back("local direct");
-  if (covers.local_indirect) parts.emplace_back("local indirect");
-  if (covers.emitter_direct) parts.emplace_back("emitters direct");
-  if (covers.emitter_indirect) parts.emplace_back("emitters indirect");
-  return CLI::detail::join(parts, ", ");
+  std::string text = CLI::detail::join(coverageNames(covers), ", ");
+  std::ranges::replace(text, '_', ' ');
+  return text;
 }
 
 void printTechniques(Console& console) {
@@ -78,12 +76,9 @@ void printRows(Console& console) {
 }
 
 Json coverageJson(const Coverage& covers) {
-  return {{"environment_direct", covers.environment_direct},
-          {"environment_indirect", covers.environment_indirect},
-          {"local_direct", covers.local_direct},
-          {"local_indirect", covers.local_indirect},
-          {"emitter_direct", covers.emitter_direct},
-          {"emitter_indirect", covers.emitter_indirect}};
+  Json json = Json::object();
+  for (const CoverageMember& m : kCoverageMembers) json[m.name] = covers.*m.member;
+  return json;
 }
 
 Json optionJson(const Option& option) {

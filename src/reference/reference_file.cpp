@@ -7,42 +7,33 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scene/coverage.h"
+
 namespace gloam {
 
 namespace reference {
-namespace {
 
-constexpr std::array<bool Coverage::*, kSeen> kMembers{
-    &Coverage::environment_direct, &Coverage::environment_indirect, &Coverage::local_direct,
-    &Coverage::local_indirect,     &Coverage::emitter_direct,       &Coverage::emitter_indirect};
-
-}  // namespace
+static_assert(std::size(kCoverageMembers) == kSeen);
 
 const char* nameOf(LightPath path) {
-  constexpr std::array<const char*, kLightPathCount> kNames{
-      "environment_direct", "environment_indirect", "local_direct", "local_indirect",
-      "emitter_direct",     "emitter_indirect",     "seen"};
-  return kNames[std::size_t(path)];
+  return path == kSeen ? "seen" : kCoverageMembers[path].name;
 }
 
 bool isDirect(LightPath path) {
-  return path != kEnvironmentIndirect && path != kLocalIndirect && path != kEmitterIndirect;
+  return path == kSeen || kCoverageMembers[path].direct;
 }
 
 bool covers(const Coverage& light, LightPath path) {
-  return path == kSeen || light.*kMembers[std::size_t(path)];
+  return path == kSeen || light.*kCoverageMembers[path].member;
 }
 
 std::string coverageText(const Coverage& light) {
-  std::string text;
-  for (int p = 0; p < kSeen; ++p) {
-    if (covers(light, LightPath(p))) text += (text.empty() ? "" : " ") + std::string(nameOf(LightPath(p)));
-  }
-  return text.empty() ? "none" : text;
+  const std::vector<std::string> names = coverageNames(light);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
 
 bool isPartOf(const Coverage& part, const Coverage& whole) {
-  return std::ranges::all_of(kMembers, [&](auto member) { return !(part.*member) || whole.*member; });
+  return without(part, whole) == Coverage{};
 }
 
 }  // namespace reference
@@ -64,19 +55,12 @@ Coverage parseCoverage(const std::string& text, const std::string& place) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     bool known = word == "none";
-    for (int p = 0; p < kSeen; ++p) {
-      if (word != nameOf(LightPath(p))) continue;
-      light.*kMembers[std::size_t(p)] = known = true;
+    for (const CoverageMember& m : kCoverageMembers) {
+      if (word == m.name) light.*m.member = known = true;
     }
     if (!known) throw Error(place, fmt::format("'{}' is no kind of light", word));
   }
   return light;
-}
-
-Coverage both(const Coverage& a, const Coverage& b) {
-  Coverage result;
-  for (const auto member : kMembers) result.*member = a.*member && b.*member;
-  return result;
 }
 
 /// Which sources the scene had of those that were followed; all of them where the file does not say.
