@@ -127,40 +127,19 @@ void BakePasses::addHits(const trace::RayPacket& rays, const trace::HitPacket& f
 // Appends what the blocked directions of a point meet, weighted. Returns the number of rays.
 std::size_t BakePasses::traceHits(std::size_t point, const BakeState& state,
                                   std::vector<GatheredHit>& hits) const {
-  const glm::vec3& normal = points_.normals[point];
   const std::size_t first = hits.size();
-  trace::RayPacket rays;
-  trace::LaneMask mask;
-  trace::HitPacket found;
-  rays.setOrigin(state.sites[point].origin);
-  double cosine_sum = 0.0;
-  std::size_t ray_count = 0;
-  for (std::size_t t = 0; t < state.bounce_tiles; ++t) {
-    const std::uint32_t lanes = state.blocked[point * state.bounce_tiles + t];
-    if (lanes == 0) continue;
-    const float* directions = tables_.tileDirections(tables_.bounce_tile[t]);
-    std::copy_n(directions, kTileSize, rays.direction_x);
-    std::copy_n(directions + kTileSize, kTileSize, rays.direction_y);
-    std::copy_n(directions + 2 * kTileSize, kTileSize, rays.direction_z);
-    float cosines[kTileSize];
-    for (int k = 0; k < kTileSize; ++k) {
-      cosines[k] = std::max(0.0f, glm::dot(normal, tables_.direction(tables_.bounce_tile[t], k)));
-      if (lanes >> k & 1u) cosine_sum += double(cosines[k]);
-    }
-    mask.set(lanes);
-    ray_count += std::size_t(std::popcount(lanes));
-    tracer_.closest(rays, mask, false,
-                    found);  // tiles of the smaller set are wide: a fifth faster as incoherent
-    addHits(rays, found, lanes, cosines, hits);
-  }
+  const BounceSums sums = traceBounceRays(
+      point, state,
+      [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t, std::uint32_t lanes,
+          const float* cosines) { addHits(rays, found, lanes, cosines, hits); });
   // The share of the hemisphere that these directions stand for is known better from the first pass.
   const float solid_angle = tables_.bounceSolidAngle();
-  const float seen = float(cosine_sum) * solid_angle;
+  const float seen = float(sums.cosine) * solid_angle;
   const float scale = seen > 0.0f ? std::clamp(state.sites[point].blocked_cosine / seen, 0.5f, 2.0f) : 1.0f;
   for (std::size_t h = first; h < hits.size(); ++h) {
     for (float& weight : hits[h].weight) weight *= scale * solid_angle;
   }
-  return ray_count;
+  return sums.rays;
 }
 
 // Every bounce has the same hits: they are kept for the next one, as many as memory is granted for.

@@ -50,7 +50,7 @@ void BakePasses::projectVisibility(std::size_t point, const std::uint16_t* block
 }
 
 void BakePasses::addGlossyHits(const trace::RayPacket& rays, const trace::HitPacket& found, std::size_t tile,
-                               const glm::vec3& normal, std::uint32_t lanes,
+                               std::uint32_t lanes, const float* cosines,
                                std::vector<GlossyHit>& hits) const {
   for (; lanes != 0; lanes &= lanes - 1) {
     const int k = std::countr_zero(lanes);
@@ -73,7 +73,7 @@ void BakePasses::addGlossyHits(const trace::RayPacket& rays, const trace::HitPac
     GlossyHit hit{.point = {corner.x, corner.y, corner.z},
                   .share = {1.0f - u - v, u, v},
                   .direction = std::uint32_t(tile) * kTileSize + std::uint32_t(k),
-                  .cosine = std::max(0.0f, glm::dot(normal, s)),
+                  .cosine = cosines[k],
                   .solid_angle = 1.0f,
                   .albedo = glm::clamp(lobes.diffuse, 0.0f, 1.0f) / kPi,
                   .specular = glm::vec3(0.0f),
@@ -92,42 +92,23 @@ void BakePasses::addGlossyHits(const trace::RayPacket& rays, const trace::HitPac
 // As traceHits, with what both lobes need.
 std::size_t BakePasses::traceGlossyHits(std::size_t point, const BakeState& state,
                                         std::vector<GlossyHit>& hits) const {
-  const glm::vec3& normal = points_.normals[point];
   const std::size_t first = hits.size();
-  trace::RayPacket rays;
-  trace::LaneMask mask;
-  trace::HitPacket found;
-  rays.setOrigin(state.sites[point].origin);
-  double cosine_sum = 0.0;
-  std::size_t ray_count = 0;
-  for (std::size_t t = 0; t < state.bounce_tiles; ++t) {
-    const std::uint32_t lanes = state.blocked[point * state.bounce_tiles + t];
-    if (lanes == 0) continue;
-    const std::int32_t tile = tables_.bounce_tile[t];
-    const float* directions = tables_.tileDirections(tile);
-    std::copy_n(directions, kTileSize, rays.direction_x);
-    std::copy_n(directions + kTileSize, kTileSize, rays.direction_y);
-    std::copy_n(directions + 2 * kTileSize, kTileSize, rays.direction_z);
-    for (int k = 0; k < kTileSize; ++k) {
-      if (lanes >> k & 1u) cosine_sum += double(std::max(0.0f, glm::dot(normal, tables_.direction(tile, k))));
-    }
-    mask.set(lanes);
-    ray_count += std::size_t(std::popcount(lanes));
-    tracer_.closest(rays, mask, false, found);
-    addGlossyHits(rays, found, std::size_t(tile), normal, lanes, hits);
-  }
+  const BounceSums sums = traceBounceRays(
+      point, state,
+      [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t tile, std::uint32_t lanes,
+          const float* cosines) { addGlossyHits(rays, found, std::size_t(tile), lanes, cosines, hits); });
   const float each = tables_.bounceSolidAngle();
   const auto scaled = [&](float known, double seen) {
     return seen > 0.0 ? each * std::clamp(known / (each * float(seen)), 0.5f, 2.0f) : each;
   };
   const RaySite& site = state.sites[point];
-  const float cosine_weight = scaled(site.blocked_cosine, cosine_sum);
-  const float solid_angle = scaled(site.blocked_solid_angle, double(ray_count));
+  const float cosine_weight = scaled(site.blocked_cosine, sums.cosine);
+  const float solid_angle = scaled(site.blocked_solid_angle, double(sums.rays));
   for (std::size_t h = first; h < hits.size(); ++h) {
     hits[h].cosine *= cosine_weight;
     hits[h].solid_angle *= solid_angle;
   }
-  return ray_count;
+  return sums.rays;
 }
 
 // M^b of a point, matrix and vector, from M^{b-1} of what it hits.
