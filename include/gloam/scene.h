@@ -90,17 +90,26 @@ struct GlossyTransfer {
   }
 };
 
-/// Precomputed radiance transfer of a mesh's vertices (PRT-1), without the receiver's own albedo / pi. In the mesh's own
-/// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart.
+/// Precomputed radiance transfer of a mesh's points (PRT-1), without the receiver's own albedo / pi. In the mesh's own
+/// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart. Points are the
+/// mesh's vertices, or the texels of a lightmap: texel (x, y), x first, is point y * texel_width + x; its middle lies at
+/// u = (x + 1/2) / texel_width, v = (y + 1/2) / texel_height of `uv_set`. Texels that no triangle covers hold what is
+/// nearest, so that bilinear filtering never meets an empty one.
 struct Transfer {
-  int order = 0;              ///< n bands, n^2 coefficients a vertex
+  int order = 0;              ///< n bands, n^2 coefficients a point
   int bounces = 0;            ///< interreflection passes contained in `indirect`
-  int directions = 0;         ///< directions a vertex in the first pass
-  std::vector<float> direct;  ///< DS: [vertex][coefficient], size vertices * order^2
+  int directions = 0;         ///< directions a point in the first pass; the most that any took
+  std::vector<float> direct;  ///< DS: [point][coefficient], size points * order^2
   std::vector<float>
-      indirect;  ///< DI - DS: [vertex][coefficient][rgb], size vertices * order^2 * 3; empty without bounces
-  GlossyTransfer glossy;
+      indirect;  ///< DI - DS: [point][coefficient][rgb], size points * order^2 * 3; empty without bounces
+  GlossyTransfer glossy;                  ///< always of vertices
+  int texel_width = 0, texel_height = 0;  ///< 0: points are vertices
+  int uv_set = 0;                         ///< index into Mesh::uv_sets; texels only
+  bool ofTexels() const { return texel_width > 0; }
 };
+
+struct NeighbourhoodTransfer;  // gloam/neighbourhood.h
+struct Volume;                 // gloam/volume.h
 
 /// Triangles that share a material: a glTF primitive. All vertex arrays have the length of `positions` or are empty
 /// (normals and tangents are never empty after reading a file: missing ones are computed).
@@ -174,6 +183,9 @@ struct Node {
   std::vector<float> morph_weights;
   std::vector<glm::mat4>
       instances;  ///< EXT_mesh_gpu_instancing: node_from_instance; empty: one, the identity
+  std::shared_ptr<const NeighbourhoodTransfer>
+      neighbourhood;                     ///< what stands here throws on others; null unless baked
+  std::shared_ptr<const Volume> volume;  ///< of smoke or cloud that stands here; null: none
 };
 
 struct AnimationChannel {

@@ -3,6 +3,8 @@
 #include "scene/scene_fingerprint.h"
 
 #include <fmt/format.h>
+#include <gloam/neighbourhood.h>
+#include <gloam/volume.h>
 
 #include <bit>
 #include <cstring>
@@ -90,8 +92,21 @@ static void add(Fingerprint& print, const GlossyTransfer& glossy) {
 }
 
 static void add(Fingerprint& print, const Transfer& transfer) {
-  const auto& [order, bounces, directions, direct, indirect, glossy] = transfer;
-  addAll(print, order, bounces, directions, direct, indirect, glossy);
+  const auto& [order, bounces, directions, direct, indirect, glossy, texel_width, texel_height, uv_set] =
+      transfer;
+  addAll(print, order, bounces, directions, direct, indirect, glossy, texel_width, texel_height, uv_set);
+}
+
+static void add(Fingerprint& print, const NeighbourhoodTransfer& transfer) {
+  const auto& [first_point, spacing, size, light_order, field_order, bounces, visibility, indirect] =
+      transfer;
+  addAll(print, first_point, spacing, size, light_order, field_order, bounces, visibility, indirect);
+}
+
+static void add(Fingerprint& print, const Volume& volume) {
+  const auto& [name, size, bounds_min, bounds_max, density, albedo, asymmetry, transfer] = volume;
+  addAll(print, name, size, bounds_min, bounds_max, density, albedo, asymmetry, transfer != nullptr);
+  if (transfer) add(print, *transfer);
 }
 
 static void add(Fingerprint& print, const Mesh& mesh) {
@@ -119,9 +134,11 @@ static void add(Fingerprint& print, const Skin& skin) {
 
 static void add(Fingerprint& print, const Node& node) {
   const auto& [name, parent, children, translation, rotation, scale, matrix, meshes, skin, camera, light,
-               morph_weights, instances] = node;
+               morph_weights, instances, neighbourhood, volume] = node;
   addAll(print, name, parent, children, translation, rotation, scale, matrix, meshes, skin, camera, light,
-         morph_weights, instances);
+         morph_weights, instances, neighbourhood != nullptr, volume != nullptr);
+  if (neighbourhood) add(print, *neighbourhood);
+  if (volume) add(print, *volume);
 }
 
 static void add(Fingerprint& print, const AnimationChannel& channel) {

@@ -28,7 +28,8 @@ struct Fingerprint {
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, glm::vec2> ||
     std::is_same_v<T, glm::vec3> || std::is_same_v<T, glm::vec4> || std::is_same_v<T, glm::uvec3> ||
-    std::is_same_v<T, glm::quat> || std::is_same_v<T, glm::mat3> || std::is_same_v<T, glm::mat4>;
+    std::is_same_v<T, glm::ivec3> || std::is_same_v<T, glm::quat> || std::is_same_v<T, glm::mat3> ||
+    std::is_same_v<T, glm::mat4>;
 
 template <PlainValue T>
 void add(Fingerprint& print, const T& value) {
