@@ -36,6 +36,16 @@ struct BakeOptions {
   int glossy_order = 0;                       ///< bands of transferred radiance, 3 to 6; 0: `order`
   int glossy_light_order = 0;    ///< bands of light, 3 to the lesser of `order` and glossy_order; 0: that
   float glossy_exponent = 0.0f;  ///< bakes that Phong lobe in, 1 to 1000; 0: each material's, at run time
+  /// Lobes that matrices cannot show (sharper than their bands, or of meshes without matrices) are followed ray by ray on the
+  /// way: mirrors and metals throw caustics. Of materials that mirror 10 % or more somewhere; kInterreflected only.
+  bool caustics = true;
+  /// Standard error of a point's DS, V and first bounce at which it takes no further directions, as a part of the norm of
+  /// what an open point has, 1e-5 to 1. `directions` is then the most that a point takes. 0: all take all of them.
+  float error = 0.0f;
+  std::size_t memory_bytes = 0;  ///< most that the bake may take; 0: as much as it likes
+  /// Each root node (each child of a root that stands alone without meshes) is an object of its own, blocked and lit by
+  /// itself alone: objects may then move against one another. Else all rigid meshes are one object, numbered 0.
+  bool apart = false;
   /// Finished work is kept here (when stopped, and every 20 s against being killed) and taken up again by the same bake of
   /// the same scene, with the same bits as without interruption. Any other file of that name is an Error: it is neither
   /// used nor overwritten. Empty: none. Removed at the end.
@@ -48,6 +58,7 @@ struct BakeEstimate {
   std::size_t glossy_vertices = 0;  ///< of these, the ones with matrices
   std::size_t rays = 0;  ///< of the first pass: half of all directions are below a vertex's horizon
   std::size_t memory_bytes = 0, file_bytes = 0;
+  std::size_t least_memory_bytes = 0;  ///< without hits kept for later bounces, which are then traced again
 };
 BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options);
 
@@ -58,7 +69,14 @@ struct BakeReport {
   std::size_t bounce_rays = 0;  ///< of all bounces together
   double first_pass_s = 0.0;    ///< wall clock
   double bounces_s = 0.0;
+  std::vector<double> bounce_s;  ///< of each bounce
   bool resumed = false;
+  double mean_directions =
+      0.0;  ///< a point took in the first pass, as many as it is asked for on both sides of its horizon
+  int most_directions = 0;     ///< that any point took
+  std::size_t rays_saved = 0;  ///< of the first pass, by points that took fewer
+  double error = 0.0;  ///< BakeOptions::error, as estimated: RMS over the points; 0 where all take all
+  std::size_t above_error = 0;    ///< points that took all directions and are not known to be that good
   std::size_t glossy_points = 0;  ///< of the points, those with matrices
   /// Relative RMS error, over these, of what prt.glossy=cheap shows: V to no more bands than the radiance has. Seen through
   /// the sharpest lobe that is shown, under light whose coefficients fall with their band as 1 / (l + 1).

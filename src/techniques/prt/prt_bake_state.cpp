@@ -63,9 +63,10 @@ Fingerprint fingerprintOf(const Scene& scene, const BakeOptions& options) {
   Fingerprint print;
   add(print, scene);
   const auto& [kind, order, bounces, directions, bounce_directions, threads, time_s, glossy, glossy_order,
-               glossy_light_order, glossy_exponent, checkpoint] = options;
+               glossy_light_order, glossy_exponent, caustics, error, memory_bytes, apart, checkpoint] =
+      options;
   addAll(print, kind, order, bounces, directions, bounce_directions, time_s, glossy, glossy_order,
-         glossy_light_order, glossy_exponent);
+         glossy_light_order, glossy_exponent, caustics, error, apart);
   return print;
 }
 
