@@ -36,6 +36,12 @@ struct BakeOptions {
   int glossy_order = 0;                       ///< bands of transferred radiance, 3 to 6; 0: `order`
   int glossy_light_order = 0;    ///< bands of light, 3 to the lesser of `order` and glossy_order; 0: that
   float glossy_exponent = 0.0f;  ///< bakes that Phong lobe in, 1 to 1000; 0: each material's, at run time
+  /// Diffuse transfer of the texels of a lightmap, of meshes that have texture coordinates for one: within 0 to 1, and no
+  /// two triangles over each other. The others keep vertices. `texels` a side, 4 to 4096, or as many as make
+  /// `texels_per_metre`, then `texels` at most (0: 4096). Both 0: none.
+  int texels = 0;
+  float texels_per_metre = 0.0f;
+  int uv_set = kNone;  ///< index into Mesh::uv_sets; kNone: the second where it will do, else the first
   /// Lobes that matrices cannot show (sharper than their bands, or of meshes without matrices) are followed ray by ray on the
   /// way: mirrors and metals throw caustics. Of materials that mirror 10 % or more somewhere; kInterreflected only.
   bool caustics = true;
@@ -56,6 +62,7 @@ struct BakeOptions {
 struct BakeEstimate {
   std::size_t vertices = 0, triangles = 0;
   std::size_t glossy_vertices = 0;  ///< of these, the ones with matrices
+  std::size_t texels = 0;           ///< of all lightmaps, without what no triangle covers
   std::size_t rays = 0;  ///< of the first pass: half of all directions are below a vertex's horizon
   std::size_t memory_bytes = 0, file_bytes = 0;
   std::size_t least_memory_bytes = 0;  ///< without hits kept for later bounces, which are then traced again
@@ -78,6 +85,8 @@ struct BakeReport {
   double error = 0.0;  ///< BakeOptions::error, as estimated: RMS over the points; 0 where all take all
   std::size_t above_error = 0;    ///< points that took all directions and are not known to be that good
   std::size_t glossy_points = 0;  ///< of the points, those with matrices
+  std::size_t texels = 0;         ///< of the points, those of lightmaps
+  Warnings warnings;              ///< meshes that keep vertices though texels were asked for, and why
   /// Relative RMS error, over these, of what prt.glossy=cheap shows: V to no more bands than the radiance has. Seen through
   /// the sharpest lobe that is shown, under light whose coefficients fall with their band as 1 / (l + 1).
   double cheap_error = 0.0;
@@ -90,5 +99,30 @@ struct BakeReport {
 /// (the checkpoint stays).
 Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                    BakeReport* report = nullptr);
+
+struct TessellateOptions {
+  /// Split until transfer that is interpolated over a triangle differs from what it is there by less than this share of
+  /// what a surface receives that nothing shadows: the root mean square over small lights from everywhere. 0.005 to 1.
+  float error = 0.05f;
+  std::size_t max_vertices = 1000000;  ///< of the whole scene; what was not split by then stays
+  int order = 5;                       ///< bands in which the difference is measured, 3 to 6
+  int directions = 1024;               ///< rays by which it is measured at a place, 256 to 65536
+  int threads = 0;                     ///< as BakeOptions
+  float time_s = 0.0f;
+};
+struct TessellateReport {
+  std::size_t vertices_before = 0, vertices_after = 0, triangles_before = 0, triangles_after = 0;
+  int passes = 0;
+  double error_before = 0.0, error_after = 0.0;  ///< the greatest
+  std::size_t above = 0;                         ///< triangles whose error is still above the bound
+  /// Of these, the ones that are as small as they may get: an edge of light and shadow runs through them.
+  std::size_t at_finest = 0;
+};
+/// Splits triangles of rigid meshes where vertices are too sparse to hold the shadow that falls on them (PRT-3): at the
+/// middle of the longest edge, which all triangles around it share, also those of other meshes and beyond seams of
+/// texture coordinates, so that no crack opens. The shape stays what it was; all of a vertex is interpolated. Instances are
+/// made unique first. Same mesh for any number of threads. Throws as bakeTransfer does.
+Scene tessellateForTransfer(const Scene& scene, const TessellateOptions& options,
+                            const Progress& progress = {}, TessellateReport* report = nullptr);
 
 }  // namespace gloam
