@@ -90,6 +90,8 @@ struct GlossyTransfer {
   }
 };
 
+struct CompressedTransfer;  // gloam/compress.h
+
 /// Precomputed radiance transfer of a mesh's points (PRT-1), without the receiver's own albedo / pi. In the mesh's own
 /// axes: coefficients belong to directions in object space (scale taken out). DS and DI - DS stand apart. Points are the
 /// mesh's vertices, or the texels of a lightmap: texel (x, y), x first, is point y * texel_width + x; its middle lies at
@@ -99,12 +101,15 @@ struct Transfer {
   int order = 0;              ///< n bands, n^2 coefficients a point
   int bounces = 0;            ///< interreflection passes contained in `indirect`
   int directions = 0;         ///< directions a point in the first pass; the most that any took
+  int object = 0;  ///< meshes of one number were baked together and stay together; others may move against them
   std::vector<float> direct;  ///< DS: [point][coefficient], size points * order^2
   std::vector<float>
       indirect;  ///< DI - DS: [point][coefficient][rgb], size points * order^2 * 3; empty without bounces
   GlossyTransfer glossy;                  ///< always of vertices
   int texel_width = 0, texel_height = 0;  ///< 0: points are vertices
   int uv_set = 0;                         ///< index into Mesh::uv_sets; texels only
+  /// Clustered PCA of `direct` and `indirect`, which are what it expands to; files keep it in their place. Null: none.
+  std::shared_ptr<const CompressedTransfer> compressed;
   bool ofTexels() const { return texel_width > 0; }
 };
 
@@ -204,6 +209,8 @@ struct Animation {
   std::vector<AnimationChannel> channels;
 };
 
+struct EnvironmentLights;  // gloam/lights.h
+
 /// Light from infinitely far away: an equirectangular map or an analytic sky.
 /// u = atan2(z, x) / 2 pi + 1/2, v = asin(y) / pi + 1/2, v up; pixels are stored with the top row (v = 1) first.
 struct Environment {
@@ -213,6 +220,8 @@ struct Environment {
   float rotation_rad = 0.0f;        ///< turns the light about +Y, counter-clockwise seen from above
   float intensity = 1.0f;
   Warnings warnings;  ///< what the reader mended
+  /// What `radiance` was painted from, where that is known exactly; null: the pixels are all there is.
+  std::shared_ptr<const EnvironmentLights> lights;
   bool empty() const { return radiance.empty(); }
 };
 

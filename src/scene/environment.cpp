@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 #include <gloam/image.h>
+#include <gloam/lights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,11 @@ glm::vec3 radianceFrom(const Environment& environment, const glm::vec3& directio
   if (environment.empty()) return glm::vec3(0.0f);
   const glm::vec3 d = glm::normalize(direction);
   const float c = std::cos(environment.rotation_rad), s = std::sin(environment.rotation_rad);
-  const glm::vec3 local(c * d.x - s * d.z, d.y, s * d.x + c * d.z);  // turned back about +Y
+  return environment.intensity *
+         mapRadiance(environment, {c * d.x - s * d.z, d.y, s * d.x + c * d.z});  // turned back about +Y
+}
+
+glm::vec3 mapRadiance(const Environment& environment, const glm::vec3& local) {
   const float u = std::atan2(local.z, local.x) / (2.0f * kPi) + 0.5f;
   const float v = std::asin(std::clamp(local.y, -1.0f, 1.0f)) / kPi + 0.5f;
   const float x = u * float(environment.width) - 0.5f, y = (1.0f - v) * float(environment.height) - 0.5f;
@@ -86,7 +91,7 @@ glm::vec3 radianceFrom(const Environment& environment, const glm::vec3& directio
       glm::mix(texel(environment, column, row), texel(environment, column + 1, row), x - x0);
   const glm::vec3 bottom =
       glm::mix(texel(environment, column, row + 1), texel(environment, column + 1, row + 1), x - x0);
-  return environment.intensity * glm::mix(top, bottom, y - y0);
+  return glm::mix(top, bottom, y - y0);
 }
 
 glm::vec3 texelDirection(const Environment& environment, int column, int row) {
@@ -97,8 +102,10 @@ glm::vec3 texelDirection(const Environment& environment, int column, int row) {
 
 sh::ShRgb projectEnvironment(const Environment& environment, int order) {
   if (environment.empty()) return sh::ShRgb(order);
-  sh::ShRgb light =
-      sh::projectEquirectangular(order, environment.radiance, environment.width, environment.height);
+  sh::ShRgb light = environment.lights
+                        ? sh::truncated(environment.lights->sh, order)
+                        : sh::projectEquirectangular(order, environment.radiance, environment.width,
+                                                     environment.height);
   light *= glm::vec3(environment.intensity);
   if (environment.rotation_rad == 0.0f) return light;
   const float c = std::cos(environment.rotation_rad), s = std::sin(environment.rotation_rad);

@@ -16,7 +16,12 @@ class NamedValues {
   /// stands twice.
   NamedValues(const std::string& prefix, const std::string& text);
 
+  /// The same of values that are known; `place` is for messages.
+  NamedValues(std::string place, std::string name, std::map<std::string, double> values)
+      : place_(std::move(place)), name_(std::move(name)), values_(std::move(values)) {}
+
   const std::string& name() const { return name_; }
+  bool has(const std::string& key) const { return values_.contains(key); }
   const std::string& place() const { return place_; }
   /// The value of a key, or the default. Throws Error where it lies outside the range.
   double take(const std::string& key, double default_value, double minimum, double maximum);

@@ -3,6 +3,7 @@
 #include "scene/scene_fingerprint.h"
 
 #include <fmt/format.h>
+#include <gloam/lights.h>
 #include <gloam/neighbourhood.h>
 #include <gloam/volume.h>
 
@@ -92,9 +93,15 @@ static void add(Fingerprint& print, const GlossyTransfer& glossy) {
 }
 
 static void add(Fingerprint& print, const Transfer& transfer) {
-  const auto& [order, bounces, directions, direct, indirect, glossy, texel_width, texel_height, uv_set] =
-      transfer;
-  addAll(print, order, bounces, directions, direct, indirect, glossy, texel_width, texel_height, uv_set);
+  // What it was expanded from says nothing more.
+  const auto& [order, bounces, directions, object, direct, indirect, glossy, texel_width, texel_height, uv_set,
+               compressed] = transfer;
+  addAll(print, order, bounces, directions, object, direct, indirect, glossy, texel_width, texel_height, uv_set);
+}
+
+static void add(Fingerprint& print, const sh::ShRgb& light) {
+  addAll(print, light.order);
+  print.addBytes(light.c.data(), sizeof light.c);
 }
 
 static void add(Fingerprint& print, const NeighbourhoodTransfer& transfer) {
@@ -173,8 +180,9 @@ void add(Fingerprint& print, const PosedScene& posed) {
 }
 
 void add(Fingerprint& print, const Environment& environment) {
-  const auto& [name, width, height, radiance, rotation_rad, intensity, warnings] = environment;
-  addAll(print, name, width, height, radiance, rotation_rad, intensity);
+  const auto& [name, width, height, radiance, rotation_rad, intensity, warnings, lights] = environment;
+  addAll(print, name, width, height, radiance, rotation_rad, intensity, lights != nullptr);
+  if (lights) add(print, lights->sh);
 }
 
 void add(Fingerprint& print, const Scene& scene) {

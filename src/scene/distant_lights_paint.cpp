@@ -1,0 +1,145 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Distant lights as pixels, for the picture behind a scene and for the path tracer.
+#include <gloam/lights.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/environment.h"
+
+namespace gloam {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+constexpr int kLeastWidth = 512, kLargestWidth = 4096;
+constexpr float kTexelsAcross = 3.0f;  // a disc's diameter
+
+int widthFor(const Environment& base, std::span<const DistantLight> lights) {
+  int width = kLeastWidth;
+  for (const DistantLight& light : lights) {
+    if (light.kind == DistantLight::Kind::kMap) width = std::max(width, light.map->width);
+    if (light.kind != DistantLight::Kind::kDisc) continue;
+    const float wanted = kTexelsAcross * kPi / light.radius_rad;
+    while (float(width) < wanted && width < kLargestWidth) width *= 2;
+  }
+  return std::max(width, base.width);
+}
+
+class Painter {
+ public:
+  Painter(Environment& map) : map_(map), c_(std::cos(map.rotation_rad)), s_(std::sin(map.rotation_rad)) {}
+
+  glm::vec3& texel(int column, int row) {
+    return map_.radiance[std::size_t(row) * std::size_t(map_.width) + std::size_t(column)];
+  }
+  glm::vec3 worldDirection(int column, int row) const {
+    const glm::vec3 d = texelDirection(map_, column, row);
+    return {c_ * d.x + s_ * d.z, d.y, c_ * d.z - s_ * d.x};
+  }
+
+  void addBase(const Environment& base) {
+    const bool same = base.width == map_.width && base.height == map_.height;
+    tbb::parallel_for(0, map_.height, [&](int row) {
+      for (int column = 0; column < map_.width; ++column) {
+        const std::size_t i = std::size_t(row) * std::size_t(map_.width) + std::size_t(column);
+        const glm::vec3 radiance =
+            same ? base.radiance[i] : mapRadiance(base, texelDirection(map_, column, row));
+        map_.radiance[i] = base.intensity * radiance;
+      }
+    });
+  }
+
+  void addSmooth(const DistantLight& light) {
+    tbb::parallel_for(0, map_.height, [&](int row) {
+      for (int column = 0; column < map_.width; ++column)
+        texel(column, row) += radianceFrom(light, worldDirection(column, row));
+    });
+  }
+
+  // Shares of texels at the rim are counted on a grid, then all are scaled so that their solid angles sum to the cone's.
+  void addDisc(const DistantLight& disc) {
+    const float diagonal = 1.5f * kPi / float(map_.height);
+    std::vector<float> shares(map_.radiance.size(), 0.0f);
+    std::vector<double> sums(std::size_t(map_.height), 0.0);
+    tbb::parallel_for(0, map_.height, [&](int row) {
+      const float elevation = kPi * (0.5f - (float(row) + 0.5f) / float(map_.height));
+      const float axis_elevation = std::asin(std::clamp(disc.direction.y, -1.0f, 1.0f));
+      if (std::abs(elevation - axis_elevation) > disc.radius_rad + diagonal) return;
+      double covered = 0.0;
+      for (int column = 0; column < map_.width; ++column) {
+        const float chord = glm::length(worldDirection(column, row) - disc.direction);
+        const float angle = 2.0f * std::asin(std::min(1.0f, 0.5f * chord));
+        if (angle > disc.radius_rad + diagonal) continue;
+        const float share = angle < disc.radius_rad - diagonal ? 1.0f : rimShare(column, row, disc);
+        shares[std::size_t(row) * std::size_t(map_.width) + std::size_t(column)] = share;
+        covered += double(share);
+      }
+      sums[std::size_t(row)] = covered * double(sh::equirectangularSolidAngle(row, map_.width, map_.height));
+    });
+    double sum = 0.0;
+    for (const double covered : sums) sum += covered;
+    const double half = std::sin(0.5 * double(disc.radius_rad));
+    if (!(sum > 0.0)) return;
+    const glm::vec3 radiance = disc.radiance * float(4.0 * double(kPi) * half * half / sum);
+    for (std::size_t i = 0; i < shares.size(); ++i) map_.radiance[i] += shares[i] * radiance;
+  }
+
+ private:
+  float rimShare(int column, int row, const DistantLight& disc) const {
+    constexpr int kPoints = 8;
+    const glm::vec3 axis(c_ * disc.direction.x - s_ * disc.direction.z, disc.direction.y,
+                         s_ * disc.direction.x + c_ * disc.direction.z);
+    const float reach = 2.0f * std::sin(0.5f * disc.radius_rad);  // chord of the half-angle
+    const float top = std::sin(kPi * (0.5f - float(row) / float(map_.height)));
+    const float bottom = std::sin(kPi * (0.5f - float(row + 1) / float(map_.height)));
+    int inside = 0;
+    for (int j = 0; j < kPoints; ++j) {
+      const float y = bottom + (top - bottom) * (float(j) + 0.5f) / kPoints;
+      const float r = std::sqrt(std::max(0.0f, 1.0f - y * y));
+      for (int i = 0; i < kPoints; ++i) {
+        const float phi =
+            2.0f * kPi * ((float(column) + (float(i) + 0.5f) / kPoints) / float(map_.width) - 0.5f);
+        const glm::vec3 off = glm::vec3(r * std::cos(phi), y, r * std::sin(phi)) - axis;
+        if (glm::dot(off, off) <= reach * reach) ++inside;
+      }
+    }
+    return float(inside) / float(kPoints * kPoints);
+  }
+
+  Environment& map_;
+  float c_, s_;
+};
+
+}  // namespace
+
+Environment paintLights(const Environment& base, std::span<const DistantLight> lights) {
+  Environment map;
+  map.name = base.name;
+  map.warnings = base.warnings;
+  map.rotation_rad = base.rotation_rad;
+  map.width = widthFor(base, lights);
+  map.height = map.width == base.width ? base.height : map.width / 2;
+  map.radiance.assign(std::size_t(map.width) * std::size_t(map.height), glm::vec3(0.0f));
+  Painter painter(map);
+  if (!base.empty()) painter.addBase(base);
+  for (const DistantLight& light : lights) {
+    if (light.kind == DistantLight::Kind::kDisc) {
+      painter.addDisc(light);
+    } else {
+      painter.addSmooth(light);
+    }
+  }
+  Environment unturned = base;  // its projection in the map's own axes
+  unturned.rotation_rad = 0.0f;
+  sh::ShRgb sh = projectEnvironment(unturned, sh::kMaxOrder);
+  const float c = std::cos(map.rotation_rad), s = std::sin(map.rotation_rad);
+  sh +=
+      sh::rotate(glm::mat3(c, 0.0f, s, 0.0f, 1.0f, 0.0f, -s, 0.0f, c), projectLights(lights, sh::kMaxOrder));
+  map.lights = std::make_shared<const EnvironmentLights>(EnvironmentLights{sh});
+  return map;
+}
+
+}  // namespace gloam
