@@ -8,6 +8,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 
+layout(constant_id = 0) const bool textured = true;
+layout(constant_id = 2) const bool vertex_colors = false;
+
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(scalar, set = 0, binding = 1) readonly buffer Positions { vec3 at[]; } positions;
 layout(scalar, set = 0, binding = 2) readonly buffer Normals { vec3 at[]; } normals;
@@ -44,15 +47,19 @@ void main() {
   gl_Position = frame_view.view.clip_from_world * vec4(world, 1.0);
   from_eye = world - frame_view.view.eye;
   normal = normalize(instances.at[instance_row].world_from_normal * normals.at[vertex]);
-  vec4 t = tangents.at[vertex];
-  vec3 world_tangent = mat3(world_from_object) * t.xyz;
-  float len = length(world_tangent);
-  tangent = vec4(len > 0.0 ? world_tangent / len : vec3(0.0), t.w * instances.at[instance_row].handedness);
-  uv_base_color_and_roughness = vec4(textureCoordinate(mesh, 0), textureCoordinate(mesh, 1));
-  uv_normal_and_emission = vec4(textureCoordinate(mesh, 2), textureCoordinate(mesh, 3));
+  // What the fragment shader does not read is neither fetched nor made.
+  tangent = uv_base_color_and_roughness = uv_normal_and_emission = vec4(0.0);
+  if (textured) {
+    vec4 t = tangents.at[vertex];
+    vec3 world_tangent = mat3(world_from_object) * t.xyz;
+    float len = length(world_tangent);
+    tangent = vec4(len > 0.0 ? world_tangent / len : vec3(0.0), t.w * instances.at[instance_row].handedness);
+    uv_base_color_and_roughness = vec4(textureCoordinate(mesh, 0), textureCoordinate(mesh, 1));
+    uv_normal_and_emission = vec4(textureCoordinate(mesh, 2), textureCoordinate(mesh, 3));
+  }
   color = vec4(1.0);
-  if (mesh.first_color != kAbsent) {
+  if (vertex_colors && mesh.first_color != kAbsent) {
     uvec2 c = colors.at[mesh.first_color + gl_VertexIndex];
     color = vec4(unpackUnorm2x16(c.x), unpackUnorm2x16(c.y));
   }
-  }
+}

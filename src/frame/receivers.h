@@ -23,6 +23,8 @@ class Receivers {
       : graph_(graph), gbuffer_(gbuffer), view_(view) {}
   /// Adds the pass "frame.receivers_N" unless this frame has it. Divisors are 1, 2, 4 and 8; others: Error.
   const ReceiverLevel& at(int divisor);
+  /// Points of someone's own in place of those that at(level.divisor) would make.
+  void set(const ReceiverLevel& level) { levels_[level.divisor] = level; }
 
  private:
   gpu::FrameGraph& graph_;

@@ -29,55 +29,62 @@ layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; } push
 
 #include "techniques/proxies/proxies_shade.glsl"
 
-ivec2 base, last;
-float weightAt(ivec2 corner, vec2 f, vec3 normal, float along) {
-  vec4 receiver = texelFetch(receiver_normal, min(base + corner, last), 0);
-  vec2 bilinear = mix(1.0 - f, f, vec2(corner));
+/// A receiver's part in a pixel.
+float weightOf(vec4 receiver, vec2 bilinear, vec3 normal, float along) {
   return max(bilinear.x * bilinear.y, kLeastBilinear) * receiverFitness(receiver, normal, along);
 }
-vec4 blended(int layer, vec4 w) {
-  return w.x * texelFetch(field, ivec3(base, layer), 0) +
-         w.y * texelFetch(field, ivec3(min(base + ivec2(1, 0), last), layer), 0) +
-         w.z * texelFetch(field, ivec3(min(base + ivec2(0, 1), last), layer), 0) +
-         w.w * texelFetch(field, ivec3(min(base + ivec2(1, 1), last), layer), 0);
-}
 
+// Pixels between the same four receivers go through one invocation, which reads these once.
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(direct_full)))) return;
-  float d = texelFetch(depth, pixel, 0).x;
-  bool covered = d > 0.0;
-  float along = eyeDepth(frame_view.view, covered ? d : 1.0);
-  vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
-  last = textureSize(receiver_normal, 0) - 1;
-  vec2 at = receiverPlace(pixel, push.divisor);
-  vec2 f = at - floor(at);
-  base = ivec2(floor(at));
-  f = mix(f, vec2(0.0), lessThan(base, ivec2(0)));  // beyond the first receiver
-  base = clamp(base, ivec2(0), last);
-  vec4 w = vec4(weightAt(ivec2(0, 0), f, normal, along), weightAt(ivec2(1, 0), f, normal, along),
-                weightAt(ivec2(0, 1), f, normal, along), weightAt(ivec2(1, 1), f, normal, along));
-  float total = w.x + w.y + w.z + w.w;
-  if (covered && total < kPoorFit) {
-    uint i = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
-    if (i < push.capacity) repairs.at[i] = uint(pixel.y) << 16 | uint(pixel.x);
-    if (i > 0u && i < push.capacity && i % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
+  int divisor = int(push.divisor);
+  ivec2 size = imageSize(direct_full), first = ivec2(gl_GlobalInvocationID.xy) * divisor - divisor / 2;
+  if (any(greaterThanEqual(first, size))) return;
+  ivec2 last = textureSize(receiver_normal, 0) - 1;
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy) - 1;  // -1: before the first receiver
+  ivec2 p00 = clamp(at, ivec2(0), last), p11 = min(p00 + 1, last);
+  ivec2 p10 = ivec2(p11.x, p00.y), p01 = ivec2(p00.x, p11.y);
+  vec4 r00 = texelFetch(receiver_normal, p00, 0), r10 = texelFetch(receiver_normal, p10, 0);
+  vec4 r01 = texelFetch(receiver_normal, p01, 0), r11 = texelFetch(receiver_normal, p11, 0);
+  vec3 s00 = texelFetch(indirect, p00, 0).rgb, s10 = texelFetch(indirect, p10, 0).rgb;
+  vec3 s01 = texelFetch(indirect, p01, 0).rgb, s11 = texelFetch(indirect, p11, 0).rgb;
+#define GLOAM_FIELD(layer)                                                                                  \
+  mat4(texelFetch(field, ivec3(p00, layer), 0), texelFetch(field, ivec3(p10, layer), 0),                    \
+       texelFetch(field, ivec3(p01, layer), 0), texelFetch(field, ivec3(p11, layer), 0))
+  mat4 f0 = GLOAM_FIELD(0), f1 = GLOAM_FIELD(1), f2 = GLOAM_FIELD(2), f3 = whole_field ? GLOAM_FIELD(3) : mat4(0.0);
+  for (int i = 0; i < divisor * divisor; ++i) {
+    ivec2 pixel = first + ivec2(i % divisor, i / divisor);
+    bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
+    pixel = clamp(pixel, ivec2(0), size - 1);
+    float d = texelFetch(depth, pixel, 0).x;
+    bool covered = d > 0.0;
+    float along = eyeDepth(frame_view.view, covered ? d : 1.0);
+    vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
+    vec2 f = receiverPlace(pixel, push.divisor) - vec2(at);
+    f = mix(f, vec2(0.0), lessThan(at, ivec2(0)));
+    vec4 w = vec4(weightOf(r00, 1.0 - f, normal, along), weightOf(r10, vec2(f.x, 1.0 - f.y), normal, along),
+                  weightOf(r01, vec2(1.0 - f.x, f.y), normal, along), weightOf(r11, f, normal, along));
+    float total = w.x + w.y + w.z + w.w;
+    if (inside && covered && total < kPoorFit) {
+      uint place = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
+      if (place < push.capacity) repairs.at[place] = uint(pixel.y) << 16 | uint(pixel.x);
+      if (place > 0u && place < push.capacity && place % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
+    }
+    w = total > 1e-20 ? w / total : vec4(0.25);
+    vec4 a = f0 * w, b = f1 * w, c = f2 * w;
+    vec3 lit;
+    if (whole_field) {
+      vec4 e = f3 * w;
+      lit = irradianceThrough(
+          float[16](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, e.x, e.y, e.z, e.w), normal);
+    } else {
+      vec4 n = vec4(normal, 1.0);
+      lit = max(vec3(dot(a, n), dot(b, n), dot(c, n)), vec3(0.0));
+    }
+    vec3 sent = w.x * s00 + w.y * s10 + w.z * s01 + w.w * s11;
+    float shown = covered ? 1.0 : 0.0;
+    if (inside) {
+      imageStore(direct_full, pixel, vec4(lit * shown, 1.0));
+      imageStore(indirect_full, pixel, vec4(sent * shown, 1.0));
+    }
   }
-  w = total > 1e-20 ? w / total : vec4(0.25);
-  vec4 a = blended(0, w), b = blended(1, w), c = blended(2, w);
-  vec3 lit;
-  if (whole_field) {
-    vec4 e = blended(3, w);
-    lit = irradianceThrough(
-        float[16](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, e.x, e.y, e.z, e.w), normal);
-  } else {
-    vec4 n = vec4(normal, 1.0);
-    lit = max(vec3(dot(a, n), dot(b, n), dot(c, n)), vec3(0.0));
-  }
-  vec3 sent = w.x * texelFetch(indirect, base, 0).rgb + w.y * texelFetch(indirect, min(base + ivec2(1, 0), last), 0).rgb +
-              w.z * texelFetch(indirect, min(base + ivec2(0, 1), last), 0).rgb +
-              w.w * texelFetch(indirect, min(base + ivec2(1, 1), last), 0).rgb;
-  float shown = covered ? 1.0 : 0.0;
-  imageStore(direct_full, pixel, vec4(lit * shown, 1.0));
-  imageStore(indirect_full, pixel, vec4(sent * shown, 1.0));
 }
