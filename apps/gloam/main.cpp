@@ -29,8 +29,17 @@ ParsedVerb declareVerb(const Verb& verb, Console& console) {
 
 namespace {
 
+/// CLI11 would take the next word for the value.
+void refuseEmptyValues(const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1)
+      throw Error(argument.substr(0, argument.size() - 1), "expected a value after '='");
+  }
+}
+
 int runVerb(const Verb& verb, std::vector<std::string> arguments, Console& console) {
   ParsedVerb parsed = declareVerb(verb, console);
+  refuseEmptyValues(arguments);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
   try {
     parsed.app->parse(std::move(arguments));

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <new>
 #include <string_view>
@@ -148,9 +149,26 @@ void readMeshes(const aiScene& source, bool colors_are_srgb, const AssimpNodes& 
   }
 }
 
+/// What assimp says, in words that tell what to do about it where it has none.
+std::string plainWords(const std::string& said) {
+  if (said.find("No meshes remaining") != std::string::npos) return "it holds no triangles: expected faces";
+  return "assimp cannot read it: " + said;
+}
+
+/// Text of 16-bit characters, which assimp takes for something else; its importers expect one byte a character.
+void refuseWideText(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  char mark[2] = {};
+  in.read(mark, 2);
+  const std::string_view read(mark, std::size_t(in.gcount()));
+  if (read == "\xff\xfe" || read == "\xfe\xff")
+    throw Error(path.string(), "is UTF-16 text; expected ASCII or UTF-8");
+}
+
 }  // namespace
 
 Scene importWithAssimp(const std::filesystem::path& path) {
+  refuseWideText(path);
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   std::string extension = path.extension().string();
@@ -162,8 +180,7 @@ Scene importWithAssimp(const std::filesystem::path& path) {
   // assimp turns it into text.
   if (!source && std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
     throw std::bad_alloc();
-  if (!source)
-    throw Error(path.string(), fmt::format("assimp cannot read it: {}", importer.GetErrorString()));
+  if (!source) throw Error(path.string(), plainWords(importer.GetErrorString()));
   if (!source->mRootNode) throw Error(path.string(), "assimp found nothing in it");
   const bool scan = extension == ".ply" || extension == ".off";
   Scene scene;

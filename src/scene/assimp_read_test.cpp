@@ -40,6 +40,13 @@ TEST_F(AssimpRead, ObjWithoutNormalsKeepsItsEdges) {
   EXPECT_TRUE(scene.materials.at(static_cast<std::size_t>(scene.meshes[0].material)).double_sided);
 }
 
+TEST_F(AssimpRead, FilesWithoutFacesAndWideTextGetPlainWords) {
+  EXPECT_NE(refusal(put("a.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n"))).find("expected faces"),
+            std::string::npos);
+  const std::string wide("\xff\xfev\0 \0", 6);
+  EXPECT_NE(refusal(put("b.obj", wide)).find("UTF-16"), std::string::npos);
+}
+
 TEST_F(AssimpRead, ObjMaterialsAndTextures) {
   put("paint.png", tinyPng());
   put("a.mtl", std::string("newmtl wall\nKd 0.5 0.25 0.125\nKs 1 1 1\nNs 126\nmap_Kd paint.png\nnewmtl "

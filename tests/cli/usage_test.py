@@ -58,6 +58,7 @@ class Usage(CliTest):
 
     def test_missing_value(self):
         self.refuse("render", "builtin:cornell", "--size", says=["--size", "value"])
+        self.refuse("render", "builtin:cornell", "--env=", "-o", "x.png", says=["--env", "value after '='"])
 
     def test_one_argument_too_many(self):
         self.refuse("render", "builtin:cornell", "other.glb", says="other.glb")
