@@ -70,21 +70,37 @@ TEST(EnvironmentSampler, DensityIntegratesToOne) {
   EXPECT_NEAR(integral([&](const glm::vec3& d) { return glm::vec3(projected.from(d).pdf); }).x, 1.0, 2e-3);
 }
 
-// Moments of the light itself and of the direction, weighted by light / density, against the sum over the sphere.
+/// Sixteen samples of a sequence.
+struct Drawn {
+  LaneVectors directions;
+  SkyLight light;
+  Drawn(const EnvironmentSampler& sampler, std::uint32_t first) {
+    LaneBits places;
+    SkyPlaces cells;
+    for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
+    sampler.choose(Sampler(9, 1, 0).scramble(0), places, cells);
+    sampler.sample(cells, directions, light);
+  }
+};
+
+// Moments of the light itself and of the direction, weighted by light / density, against the sum over the sphere; and each
+// sample against what is there when one asks for one direction, or for sixteen.
 void expectUnbiased(const EnvironmentSampler& sampler) {
   constexpr int kSamples = 1 << 16;
   glm::dvec3 light(0.0), up(0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const EnvironmentSampler::Sample s =
-        sampler.sample(sampler.choose(Sampler(9, 1, std::uint32_t(i)).numbers(0)));
-    ASSERT_GT(s.light.pdf, 0.0f);
-    ASSERT_NEAR(glm::length(s.direction), 1.0f, 1e-5f);
-    const EnvironmentSampler::Light again = sampler.from(s.direction);
-    EXPECT_NEAR(again.pdf, s.light.pdf, 2e-3f * s.light.pdf + 1e-4f);
-    EXPECT_LT(glm::length(again.radiance - s.light.radiance), 2e-3f * glm::length(s.light.radiance) + 1e-3f);
-    const glm::dvec3 weighted = glm::dvec3(s.light.radiance) / double(s.light.pdf) / double(kSamples);
+    const Drawn drawn(sampler, std::uint32_t(i) / kLanes * kLanes);
+    const int lane = i % kLanes;
+    const glm::vec3 direction = drawn.directions.get(lane), radiance = drawn.light.radiance.get(lane);
+    const float pdf = drawn.light.pdf.at[lane];
+    ASSERT_GT(pdf, 0.0f);
+    ASSERT_NEAR(glm::length(direction), 1.0f, 1e-5f);
+    const EnvironmentSampler::Light again = sampler.from(direction);
+    EXPECT_NEAR(again.pdf, pdf, 2e-3f * pdf + 1e-4f);
+    EXPECT_LT(glm::length(again.radiance - radiance), 2e-3f * glm::length(radiance) + 1e-3f);
+    const glm::dvec3 weighted = glm::dvec3(radiance) / double(pdf) / double(kSamples);
     light += weighted;
-    up += weighted * double(std::max(0.0f, s.direction.y + 0.3f * s.direction.x));
+    up += weighted * double(std::max(0.0f, direction.y + 0.3f * direction.x));
   }
   const glm::dvec3 want_light = integral([&](const glm::vec3& d) { return sampler.from(d).radiance; });
   const glm::dvec3 want_up = integral(
@@ -92,6 +108,32 @@ void expectUnbiased(const EnvironmentSampler& sampler) {
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(light[c], want_light[c], 2e-3 * std::abs(want_light[c]) + 1e-4);
     EXPECT_NEAR(up[c], want_up[c], 2e-3 * std::abs(want_up[c]) + 1e-4);
+  }
+}
+
+// Out of sixteen directions at once: the same as out of each.
+TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
+  for (const int order : {0, 3}) {
+    for (const glm::ivec2 size : {glm::ivec2(32, 16), glm::ivec2(3, 2), glm::ivec2(1, 1)}) {
+      const EnvironmentSampler sampler(oddSky(size.x, size.y), order);
+      for (std::uint32_t k = 0; k < 200; ++k) {
+        LaneVectors directions;
+        for (int i = 0; i < kLanes; ++i)
+          directions.set(i, sampling::uniformSphere(sampling::r2(16 * k + std::uint32_t(i))));
+        directions.set(3, {0.0f, 1.0f, 0.0f});
+        directions.set(5, {0.0f, -1.0f, 0.0f});
+        SkyPlaces places;
+        SkyLight light;
+        sampler.find(directions, places);
+        sampler.at(places, directions, light);
+        for (int i = 0; i < kLanes; ++i) {
+          const EnvironmentSampler::Light want = sampler.from(directions.get(i));
+          EXPECT_NEAR(light.pdf.at[i], want.pdf, 1e-3f * want.pdf + 1e-5f);
+          EXPECT_LT(glm::length(light.radiance.get(i) - want.radiance),
+                    1e-3f * (1.0f + glm::length(want.radiance)));
+        }
+      }
+    }
   }
 }
 

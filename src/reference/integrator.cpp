@@ -80,22 +80,27 @@ void Integrator::Impl::setFootprint(CameraPoint& point, const glm::vec3& directi
 }
 
 void Integrator::Impl::setMaterial(CameraPoint& point) const {
+  static_assert(kFootprintSamples * kFootprintSamples <= kLanes);
   const Surfaces& surfaces = paths.surfaces();
   const int side = surfaces.textured(point.instance) ? kFootprintSamples : 1;
   const trace::Hit hit{point.instance, point.triangle, 0.0f, point.u, point.v, point.geometric_normal};
-  glm::vec3 albedo(0.0f), normal(0.0f);
-  Vertex vertex;
+  PathLanes lanes{};
+  Surfaces::Arrivals arrivals{};
   for (int i = 0; i < side * side; ++i) {
     const glm::vec2 place = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
-    surfaces.setVertex(vertex, hit, -point.to_eye, point.uv_per_x * place.x + point.uv_per_y * place.y);
-    albedo += vertex.lobes->lobes.diffuse;
-    normal += vertex.normal;
+    lanes.to_view.set(i, point.to_eye);
+    surfaces.arrive(lanes, arrivals, i, hit, point.uv_per_x * place.x + point.uv_per_y * place.y);
   }
-  point.position = vertex.position;
-  point.ray_offset = vertex.ray_offset;
+  surfaces.setVertices(lanes, arrivals);
+  glm::vec3 albedo(0.0f), normal(0.0f);
+  for (int i = 0; i < side * side; ++i) {
+    albedo += lanes.diffuse.get(i);
+    normal += lanes.normal.get(i);
+  }
+  point.position = lanes.position.get(0);
   point.albedo = albedo / float(side * side);
   const float length = glm::length(normal);
-  point.normal = side > 1 && length > 0.0f ? normal / length : vertex.normal;
+  point.normal = side > 1 && length > 0.0f ? normal / length : lanes.normal.get(0);
 }
 
 Integrator::Integrator(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,

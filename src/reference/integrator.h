@@ -36,7 +36,6 @@ struct CameraPoint {
   int triangle = 0;
   float u = 0.0f, v = 0.0f;
   float eye_depth = 0.0f;                  ///< 0: background
-  float ray_offset = 0.0f;                 ///< rays start that far off, along the geometric normal
   glm::vec3 position{0.0f}, to_eye{0.0f};  ///< to_eye unit
   glm::vec3 geometric_normal{0.0f};        ///< unit, toward the eye
   glm::vec3 normal{0.0f};  ///< shading normal, by the rule of sides (frame/README.md); as albedo

@@ -1,9 +1,10 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What paths that walk side by side work out in the same way, sixteen at once: loops that a compiler turns into vector code.
+// What paths that walk side by side carry, sixteen at once, one a lane of vectors (lanes_simd.h).
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "reference/sampler.h"
@@ -29,15 +30,10 @@ struct LaneVectors {
     z.at[lane] = v.z;
   }
   glm::vec3 get(int lane) const { return {x.at[lane], y.at[lane], z.at[lane]}; }
+  bool isZero(int lane) const { return x.at[lane] == 0.0f && y.at[lane] == 0.0f && z.at[lane] == 0.0f; }
 };
 
 /// Sampler::numbers of one pair for samples given by Sampler::place.
 void numbersOfLanes(const Sampler::Scramble& scramble, const LaneBits& places, LaneBits& x, LaneBits& y);
-/// Directions about normals with density cosine / pi, from two numbers in [0, 1).
-void cosineOfLanes(const LaneFloats& u, const LaneFloats& v, const LaneVectors& normals,
-                   LaneVectors& directions);
-/// Equirectangular coordinates in turns: longitude -1/2 to 1/2 (atan2(z, x)), elevation -1/4 to 1/4; and its cosine.
-void anglesOfLanes(const LaneVectors& directions, LaneFloats& longitude, LaneFloats& elevation,
-                   LaneFloats& cos_elevation);
 
 }  // namespace gloam::reference

@@ -4,20 +4,17 @@
 // Kajiya 1986, "The rendering equation"; Veach 1997, chapter 9: at every vertex one direction by light and one by lobes, joined
 // by the power heuristic. The direction by lobes is the path's own next step. A lamp is a delta: by light alone.
 //
-// Several samples of a point walk side by side, step by step: between two rays a path does little, and most of that is
-// waiting, for memory or for the last result. Each goes its own way; what they come to does not depend on their company.
+// Sixteen samples of a point walk side by side, step by step, one a lane of vectors (path_lanes.h); rays are traced one by
+// one. Paths that end leave their lanes to those that go on.
 #include "reference/paths.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <new>
 
 #include "reference/paths_batch.h"
 
 namespace gloam::reference {
 namespace {
 
-constexpr std::size_t kFewLamps = 8;      // so many all shine on what the camera sees
 constexpr int kFirstRoulette = 4;         // vertices before it are always followed
 constexpr float kSurestRoulette = 0.95f;  // so that a white furnace ends too
 
@@ -50,98 +47,78 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
   last_depth_ = indirect_.any() ? options.bounces : 0;
 }
 
-void Paths::chooseSteps(Batch& batch) const {
-  LaneBits bits_x, bits_y;
-  LaneFloats u, v;
-  LaneVectors normals, directions;
-  batch.numbers(kLobes, bits_x, bits_y);
-  for (int i = 0; i < kLanes; ++i) {
-    const PointLobes& lobes = batch.active[i < batch.count ? i : 0]->lobes;
-    u.at[i] = lobes.stretched(Sampler::toUnit(bits_x.at[i]));
-    v.at[i] = Sampler::toUnit(bits_y.at[i]);
-    normals.set(i, lobes.normal());
-  }
-  cosineOfLanes(u, v, normals, directions);
-  for (int i = 0; i < batch.count; ++i) {
-    Lane& lane = *batch.active[i];
-    const float choice = Sampler::toUnit(bits_x.at[i]);
-    if (lane.lobes.choosesPhong(choice)) directions.set(i, lane.lobes.samplePhong({choice, v.at[i]}));
-    lane.direction = directions.get(i);
-    const PointLobes::Value lobes = lane.lobes.at(lane.direction);
-    const bool above = glm::dot(lane.vertex.geometric_normal, lane.direction) > 0.0f;
-    lane.pdf = above ? lobes.pdf : 0.0f;
-    lane.step_throughput = lane.throughput * lobes.value * (1.0f / lobes.pdf);
-  }
-  if (batch.sources.environment && sample_lobes_) environment_->places(directions, batch.count, batch.skies);
-}
-
-void Paths::addEnvironment(Batch& batch, int i) const {
-  Lane& lane = *batch.active[i];
-  const EnvironmentSampler::Light light = environment_->at(batch.skies[i], lane.direction);
-  if (!isBlack(light.radiance))
-    batch.add(lane, kEnvironmentDirect, lane.step_throughput * light.radiance * weight(lane.pdf, light.pdf));
+// Light in the sky behind the steps.
+void Paths::findSky(Batch& batch) const {
+  environment_->at(batch.sky_by_lobes, batch.lanes.direction, batch.sky);
+  lightOfSteps(batch.lanes, batch.sky.radiance, batch.sky.pdf, both_, batch.step_light);
 }
 
 // The last vertices under a sky alone: only whether it is free.
 void Paths::finish(Batch& batch) const {
   for (int i = 0; i < batch.count; ++i) {
-    const Lane& lane = *batch.active[i];
-    if (!(lane.pdf > 0.0f) || environment_->isDark(batch.skies[i])) continue;
-    const trace::Ray ray{lane.origin, lane.direction};
+    if (batch.step_light.isZero(i)) continue;
+    const trace::Ray ray = batch.stepOf(i);
     batch.record(ray, true);
-    if (!tracer_.occluded(ray)) addEnvironment(batch, i);
+    if (!tracer_.occluded(ray)) batch.add(i, kEnvironmentDirect, batch.step_light.get(i));
   }
 }
 
-// Whether the path goes on from what its step has met.
-bool Paths::arrive(Batch& batch, Lane& lane, const trace::Hit& hit) const {
-  lane.throughput = lane.step_throughput;
-  if (batch.depth >= kFirstRoulette) {
-    const float chance = std::min(largest(lane.throughput), kSurestRoulette);
-    const Sampler::Scramble scramble = batch.sampler.scramble(batch.number(kLampAndRoulette));
-    if (Sampler::unit(Sampler::numbers(scramble, lane.place)).y >= chance) return false;
-    lane.throughput /= chance;
+void Paths::addEmission(Batch& batch, int lane, const trace::Hit& hit) const {
+  const PathLanes& lanes = batch.lanes;
+  const float cosine = std::abs(glm::dot(hit.geometric_normal, lanes.direction.get(lane)));
+  const float pdf = Emitters::solidAnglePdf(emitters_.areaPdf(hit.instance, hit.triangle),
+                                            hit.distance * hit.distance, cosine);
+  const glm::vec3 radiance = surfaces_.emission(hit.instance, hit.triangle, hit.u, hit.v);
+  batch.add(lane, kEmitterDirect, lanes.step.get(lane) * radiance * weight(lanes.pdf.at[lane], pdf));
+}
+
+void Paths::traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const {
+  const bool to_sky = batch.sources.environment && sample_lobes_;
+  for (int i = 0; i < batch.count; ++i) {
+    if (batch.lanes.step.isZero(i)) continue;
+    const trace::Ray ray = batch.stepOf(i);
+    batch.record(ray, false);
+    hits[i] = tracer_.closest(ray);
+    if (!hits[i]) {
+      if (to_sky) batch.add(i, kEnvironmentDirect, batch.step_light.get(i));
+    } else if (go_on) {
+      surfaces_.prefetchCorners(hits[i]);
+    }
   }
-  surfaces_.setVertex(lane.vertex, hit, lane.direction);
-  lane.setUp(-lane.direction);
-  return !lane.vertex.lobes->black;
+  for (int i = 0; go_on && i < batch.count; ++i)
+    if (hits[i]) surfaces_.prefetchVertices(hits[i]);
 }
 
 // To the next vertices; collects what shines there.
 void Paths::advance(Batch& batch, bool go_on) const {
+  PathLanes& lanes = batch.lanes;
   trace::Hit hits[kLanes];
-  for (int i = 0; i < batch.count; ++i) {
-    const Lane& lane = *batch.active[i];
-    const trace::Ray ray{lane.origin, lane.direction};
-    if (!(lane.pdf > 0.0f) || isBlack(lane.step_throughput)) continue;
-    batch.record(ray, false);
-    hits[i] = tracer_.closest(ray);
-    if (go_on && hits[i]) surfaces_.prefetchCorners(hits[i]);
-  }
-  if (go_on) {
-    for (int i = 0; i < batch.count; ++i) {
-      if (hits[i]) surfaces_.prefetchVertices(hits[i]);
-    }
-  }
+  traceSteps(batch, hits, go_on);
+  const bool roulette = batch.depth >= kFirstRoulette;
+  LaneBits unused, chances;
+  if (roulette) numbersOfLanes(batch.scramble(kLampAndRoulette), lanes.place, unused, chances);
+  batch.arrivals.varied = 0;
+  batch.arrivals.glossy = false;
   int left = 0;
   for (int i = 0; i < batch.count; ++i) {
-    Lane& lane = *batch.active[i];
-    const trace::Hit& hit = hits[i];
-    if (!hit) {
-      if (lane.pdf > 0.0f && batch.sources.environment && sample_lobes_) addEnvironment(batch, i);
-      continue;
+    if (!hits[i]) continue;
+    if (batch.sources.emitters && sample_lobes_ && surfaces_.emits(hits[i].instance))
+      addEmission(batch, i, hits[i]);
+    if (!go_on) continue;
+    glm::vec3 throughput = lanes.step.get(i);
+    if (roulette) {
+      const float chance = std::min(largest(throughput), kSurestRoulette);
+      if (Sampler::toUnit(chances.at[i]) >= chance) continue;
+      throughput /= chance;
     }
-    if (batch.sources.emitters && sample_lobes_ && surfaces_.emits(hit.instance)) {
-      const float cosine = std::abs(glm::dot(hit.geometric_normal, lane.direction));
-      const float pdf = Emitters::solidAnglePdf(emitters_.areaPdf(hit.instance, hit.triangle),
-                                                hit.distance * hit.distance, cosine);
-      const glm::vec3 radiance = surfaces_.emission(hit.instance, hit.triangle, hit.u, hit.v);
-      batch.add(lane, kEmitterDirect, lane.step_throughput * radiance * weight(lane.pdf, pdf));
-    }
-    if (go_on && arrive(batch, lane, hit)) batch.active[left++] = &lane;
+    lanes.place.at[left] = lanes.place.at[i];
+    lanes.slot.at[left] = lanes.slot.at[i];
+    lanes.throughput.set(left, throughput);
+    lanes.to_view.set(left, -lanes.direction.get(i));
+    if (surfaces_.arrive(lanes, batch.arrivals, left, hits[i])) ++left;
   }
   batch.count = left;
-  batch.same_vertex = false;
+  if (left > 0) surfaces_.setVertices(lanes, batch.arrivals);
 }
 
 void Paths::walk(Batch& batch) const {
@@ -149,73 +126,58 @@ void Paths::walk(Batch& batch) const {
     batch.sources = batch.depth == 0 ? direct_ : indirect_;
     const bool go_on = batch.depth < last_depth_;
     const bool sky_by_light = batch.sources.environment && sample_lights_;
-    if (sky_by_light) {  // early: it takes its time to come from memory
-      LaneBits x, y;
-      batch.numbers(kEnvironment, x, y);
-      for (int i = 0; i < batch.count; ++i) batch.active[i]->block = environment_->choose({x.at[i], y.at[i]});
-    }
-    const bool by_lobes = sample_lobes_ && (batch.sources.environment || batch.sources.emitters);
-    if (go_on || by_lobes) chooseSteps(batch);
-    if (batch.sources.lamps && (batch.depth == 0 ? lamps_.size() <= kFewLamps : lamps_.size() == 1)) {
-      fromAllLamps(batch);
-    } else if (batch.sources.lamps) {
-      fromOneLamp(batch);
-    }
+    const bool sky_by_lobes = batch.sources.environment && sample_lobes_;
+    const bool by_lobes = sky_by_lobes || (batch.sources.emitters && sample_lobes_);
+    // Early: what is in the sky takes its time to come from memory.
+    if (sky_by_light)
+      environment_->choose(batch.scramble(kEnvironment), batch.lanes.place, batch.sky_by_light);
+    if (go_on || by_lobes) chooseSteps(batch.lanes, batch.scramble(kLobes));
+    if (sky_by_lobes) environment_->find(batch.lanes.direction, batch.sky_by_lobes);
+    if (batch.sources.lamps) fromLamps(batch);
     if (sky_by_light) fromEnvironment(batch);
     if (batch.sources.emitters && sample_lights_) fromEmitters(batch);
     if (!go_on && !by_lobes) return;
+    if (sky_by_lobes) findSky(batch);
     if (!go_on && !batch.sources.emitters) return finish(batch);
     advance(batch, go_on);
   }
 }
 
-void Paths::begin(Batch& batch, Lane* lanes, const CameraPoint& point, std::uint32_t first,
+void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
                   std::span<PathLight> light) const {
   const bool textured = surfaces_.textured(point.instance), emits = surfaces_.emits(point.instance);
   const trace::Hit hit{point.instance, point.triangle, 0.0f, point.u, point.v, point.geometric_normal};
-  const Sampler::Scramble scramble = batch.sampler.scramble(kPixelPair);
-  batch.same_vertex = !textured;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    Lane& lane = *new (&lanes[i]) Lane;
-    lane.light = &light[i];
-    lane.place = bits::reversedBits(first + std::uint32_t(i));
-    lane.throughput = glm::vec3(1.0f);
-    light[i] = {};
+  PathLanes& lanes = batch.lanes;
+  batch.light = light;
+  batch.depth = batch.count = 0;
+  batch.arrivals.varied = 0;
+  batch.arrivals.glossy = false;
+  LaneBits places, x, y;
+  for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
+  if (textured) numbersOfLanes(batch.sampler.scramble(kPixelPair), places, x, y);
+  for (int i = 0; i < int(light.size()); ++i) {
     glm::vec2 shift(0.0f);
     if (textured) {
-      const glm::vec2 place = Sampler::unit(Sampler::numbers(scramble, lane.place)) - 0.5f;
+      const glm::vec2 place = glm::vec2(Sampler::toUnit(x.at[i]), Sampler::toUnit(y.at[i])) - 0.5f;
       shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
-      surfaces_.setVertex(lane.vertex, hit, -point.to_eye, shift);
-      lane.setUp(point.to_eye);
-    } else if (i == 0) {
-      const trace::SurfacePoint at{point.triangle, point.u, point.v};
-      lane.vertex.position = point.position;
-      lane.vertex.geometric_normal = point.geometric_normal;
-      lane.vertex.normal = point.normal;
-      lane.vertex.ray_offset = point.ray_offset;
-      surfaces_.setLobes(lane.vertex, point.instance, at, at);
-      lane.setUp(point.to_eye);
-    } else {
-      lane.vertex.position = point.position;
-      lane.vertex.geometric_normal = point.geometric_normal;
-      lane.vertex.lobes = lanes[0].vertex.lobes;
-      lane.lobes = lanes[0].lobes;
-      lane.origin = lanes[0].origin;
     }
-    if (emits) light[i][kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
-    if (!lane.vertex.lobes->black) batch.active[batch.count++] = &lane;
+    PathLight& own = light[std::size_t(i)] = {};
+    if (emits) own[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
+    const int lane = batch.count;
+    lanes.place.at[lane] = places.at[i];
+    lanes.slot.at[lane] = i;
+    lanes.throughput.set(lane, glm::vec3(1.0f));
+    lanes.to_view.set(lane, point.to_eye);
+    if (surfaces_.arrive(lanes, batch.arrivals, lane, hit, shift)) ++batch.count;
   }
+  if (batch.count > 0) surfaces_.setVertices(lanes, batch.arrivals);
 }
 
 void Paths::trace(const CameraPoint& point, std::uint32_t pixel, std::uint32_t first,
                   std::span<PathLight> light, std::size_t& rays, std::vector<trace::LoggedRay>* log) const {
-  // Plain memory: most of it is never read where few samples are asked for.
-  alignas(64) std::byte lanes[kLanes * sizeof(Lane)], shadows[kLanes * sizeof(Batch::Shadow)];
-  Batch batch{rays, log, Sampler(seed_, pixel, first)};
-  batch.shadows = reinterpret_cast<Batch::Shadow*>(shadows);
+  Batch batch(rays, log, Sampler(seed_, pixel, first));
   for (std::size_t done = 0; done < light.size(); done += kLanes) {
-    batch.count = batch.depth = 0;
-    begin(batch, reinterpret_cast<Lane*>(lanes), point, first + std::uint32_t(done),
+    begin(batch, point, first + std::uint32_t(done),
           light.subspan(done, std::min(std::size_t(kLanes), light.size() - done)));
     walk(batch);
   }

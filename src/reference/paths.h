@@ -41,23 +41,18 @@ class Paths {
   Sources indirect() const { return indirect_; }
 
  private:
-  struct Lane;
   struct Batch;
-  void begin(Batch& batch, Lane* lanes, const CameraPoint& point, std::uint32_t first,
-             std::span<PathLight> light) const;
+  void begin(Batch& batch, const CameraPoint& point, std::uint32_t first, std::span<PathLight> light) const;
   void walk(Batch& batch) const;
-  void chooseSteps(Batch& batch) const;
+  void fromLamps(Batch& batch) const;
   void fromEnvironment(Batch& batch) const;
   void fromEmitters(Batch& batch) const;
-  void fromAllLamps(Batch& batch) const;
-  void fromOneLamp(Batch& batch) const;
-  static glm::vec3 lampLight(const Lane& lane, const Lamp::Arriving& from);
-  static void pushLamp(Batch& batch, Lane& lane, const Lamp::Arriving& from, const glm::vec3& light);
   void castShadows(Batch& batch, LightPath direct) const;
+  void findSky(Batch& batch) const;
   void finish(Batch& batch) const;
   void advance(Batch& batch, bool go_on) const;
-  bool arrive(Batch& batch, Lane& lane, const trace::Hit& hit) const;
-  void addEnvironment(Batch& batch, int lane) const;
+  void traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const;
+  void addEmission(Batch& batch, int lane, const trace::Hit& hit) const;
   float weight(float pdf, float other_pdf) const {
     const float ratio = other_pdf / pdf;
     return both_ ? 1.0f / (1.0f + ratio * ratio) : 1.0f;

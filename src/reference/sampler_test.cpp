@@ -72,28 +72,12 @@ TEST(Sampler, FollowsFromItsArguments) {
   EXPECT_LT(Sampler::toUnit(0xffffffffu), 1.0f);
 }
 
-TEST(Lanes, AreTheFunctionsForOne) {
+TEST(Lanes, NumbersAreThoseOfOneSample) {
   LaneBits places, x, y;
-  LaneFloats u, v, longitude, elevation, cosine;
-  LaneVectors normals, directions;
-  const Sampler first(3, 4, 0);
   for (std::uint32_t i = 0; i < std::uint32_t(kLanes); ++i) places.at[i] = Sampler(3, 4, 77 * i).place();
-  numbersOfLanes(first.scramble(9), places, x, y);
-  for (int i = 0; i < kLanes; ++i) {
+  numbersOfLanes(Sampler(3, 4, 0).scramble(9), places, x, y);
+  for (int i = 0; i < kLanes; ++i)
     EXPECT_EQ(glm::uvec2(x.at[i], y.at[i]), Sampler(3, 4, 77u * std::uint32_t(i)).numbers(9));
-    u.at[i] = Sampler::toUnit(x.at[i]);
-    v.at[i] = Sampler::toUnit(y.at[i]);
-    normals.set(i, glm::normalize(glm::vec3(u.at[i] - 0.5f, v.at[i] - 0.5f, 0.1f)));
-  }
-  cosineOfLanes(u, v, normals, directions);
-  anglesOfLanes(directions, longitude, elevation, cosine);
-  for (int i = 0; i < kLanes; ++i) {
-    const glm::vec3 d = directions.get(i);
-    EXPECT_EQ(d, angles::cosineAbout(normals.get(i), u.at[i], v.at[i]));
-    EXPECT_NEAR(glm::dot(d, normals.get(i)), std::sqrt(1.0f - u.at[i]), 1e-5f);
-    EXPECT_EQ(longitude.at[i], angles::turns(d.z, d.x));
-    EXPECT_EQ(elevation.at[i], angles::turns(d.y, cosine.at[i]));
-  }
 }
 
 TEST(Angles, AreThoseOfTheMathematicsLibrary) {

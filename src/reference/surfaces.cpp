@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <bit>
+
 #include "scene/transforms.h"
+#include "trace/surface.h"
 
 namespace gloam::reference {
 namespace {
@@ -20,6 +23,20 @@ LobesReady readyLobes(const glm::vec3& base_color, float metallic, float roughne
 glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& fallback) {
   const float squared = glm::dot(v, v);
   return squared > 0.0f && std::isfinite(squared) ? v * (1.0f / std::sqrt(squared)) : fallback;
+}
+
+template <class T>
+T between(const std::vector<T>& values, const glm::uvec3& corners, float u, float v) {
+  return values[corners.x] * (1.0f - u - v) + values[corners.y] * u + values[corners.z] * v;
+}
+
+std::vector<glm::vec4> worldTangents(const std::vector<glm::vec4>& given, const glm::mat3& linear) {
+  const float handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
+  std::vector<glm::vec4> tangents;
+  tangents.reserve(given.size());
+  for (const glm::vec4& t : given)
+    tangents.emplace_back(unitOr(linear * glm::vec3(t), glm::vec3(0.0f)), t.w * handedness);
+  return tangents;
 }
 
 }  // namespace
@@ -35,23 +52,29 @@ Surfaces::Surface Surfaces::makeSurface(const Instance& instance, trace::Tracer:
                 fmt::format("{} normals for {} vertices", normals.size(), s.mesh->vertexCount()));
   const glm::mat3 linear = instance.deformed() ? glm::mat3(1.0f) : glm::mat3(instance.world_from_object);
   const glm::mat3 world_from_normal = normalTransform(linear);
-  s.own_normals.resize(normals.size());
+  s.normals.resize(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i)
-    s.own_normals[i] = unitOr(world_from_normal * normals[i], glm::vec3(0.0f));
-  s.normals = s.own_normals.data();
+    s.normals[i] = unitOr(world_from_normal * normals[i], glm::vec3(0.0f));
 
   const Material& m = *s.material;
-  const bool colors = s.mesh->colors.size() == s.mesh->vertexCount() && !s.mesh->colors.empty();
+  const Mesh& mesh = *s.mesh;
+  const bool colors = mesh.colors.size() == mesh.vertexCount() && !mesh.colors.empty();
+  if (colors) s.colors = mesh.colors.data();
   s.uniform = !m.base_color_map && !m.metallic_roughness_map && !colors;
   s.lobes = readyLobes(glm::vec3(m.base_color), m.metallic, m.roughness, m.specular);
-  const auto& tangents = instance.deformed() ? instance.deformed_tangents : s.mesh->tangents;
-  s.normal_mapped = m.normal_map && tangents.size() == s.mesh->vertexCount();
-  if (s.normal_mapped) s.tangents = instance.deformed() ? nullptr : tangents.data();
-  s.world_from_tangent = linear;
-  s.handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
+  s.base_color = TextureReader(scene_, m.base_color_map, mesh, true);
+  s.metallic_roughness = TextureReader(scene_, m.metallic_roughness_map, mesh, false);
+  s.emission = TextureReader(scene_, m.emission_map, mesh, true);
+  const auto& tangents = instance.deformed() ? instance.deformed_tangents : mesh.tangents;
+  if (m.normal_map && tangents.size() == mesh.vertexCount() && !tangents.empty()) {
+    s.normal = TextureReader(scene_, m.normal_map, mesh, false);
+    s.tangents = worldTangents(tangents, linear);
+  }
+  const bool normal_mapped = !s.tangents.empty();
+  s.varied = !s.uniform || normal_mapped;
   s.emits = m.emission != glm::vec3(0.0f);
   s.holes = m.alpha_mask;
-  s.textured = m.base_color_map || m.metallic_roughness_map || s.normal_mapped || (s.emits && m.emission_map);
+  s.textured = m.base_color_map || m.metallic_roughness_map || normal_mapped || (s.emits && m.emission_map);
   return s;
 }
 
@@ -60,68 +83,74 @@ Surfaces::Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tra
   tbb::parallel_for(std::size_t(0), instances_.size(), [&](std::size_t i) {
     instances_[i] = makeSurface(posed.instances[i], tracer.triangles(int(i)));
   });
-  for (std::size_t i = 0; i < instances_.size(); ++i) {
-    Surface& s = instances_[i];
-    any_emits_ = any_emits_ || (s.emits && s.mesh->triangleCount() > 0);
-    if (!s.normal_mapped || s.tangents) continue;
-    s.own_tangents = posed.instances[i].deformed_tangents;  // a pose need not outlive its construction
-    s.tangents = s.own_tangents.data();
-  }
+  for (const Surface& s : instances_) any_emits_ = any_emits_ || (s.emits && s.mesh->triangleCount() > 0);
 }
 
-void Surfaces::setLobes(Vertex& vertex, int instance, const trace::SurfacePoint& at,
-                        const trace::SurfacePoint& texture_at) const {
-  const Surface& s = instances_[std::size_t(instance)];
-  vertex.lobes = &s.lobes;
-  if (s.uniform) return;
-  const trace::MaterialPoint point = trace::materialAt(scene_, *s.mesh, at, texture_at);
-  vertex.lobes = &vertex.own_lobes.emplace(
-      readyLobes(glm::vec3(point.base_color), point.metallic, point.roughness, s.material->specular));
+void Surfaces::setLobes(PathLanes& lanes, int lane, const LobesReady& lobes) {
+  lanes.diffuse.set(lane, lobes.lobes.diffuse);
+  lanes.specular.set(lane, lobes.lobes.specular);
+  lanes.exponent.at[lane] = lobes.lobes.exponent;
+  lanes.specular_share.at[lane] = lobes.specular_share;
 }
 
-glm::vec3 Surfaces::tilted(const Surface& s, const glm::uvec3& corners, const trace::SurfacePoint& at,
-                           const trace::SurfacePoint& texture_at, const glm::vec3& normal) const {
-  const auto in_world = [&](std::uint32_t vertex) {
-    const glm::vec4& t = s.tangents[vertex];
-    return glm::vec4(unitOr(s.world_from_tangent * glm::vec3(t), glm::vec3(0.0f)), t.w * s.handedness);
-  };
-  const glm::vec4 tangent =
-      in_world(corners.x) * (1.0f - at.u - at.v) + in_world(corners.y) * at.u + in_world(corners.z) * at.v;
-  const glm::vec4 texel = trace::sampleTexture(scene_, s.material->normal_map, *s.mesh, texture_at, false);
-  return trace::mappedNormal(normal, tangent, glm::vec3(texel), s.material->normal_scale);
-}
-
-void Surfaces::setVertex(Vertex& vertex, const trace::Hit& hit, const glm::vec3& direction,
-                         const glm::vec2& texture_shift) const {
+bool Surfaces::arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trace::Hit& hit,
+                      const glm::vec2& texture_shift) const {
   const Surface& s = instances_[std::size_t(hit.instance)];
-  const glm::uvec3 corner = s.triangles.vertices[hit.triangle];
-  const glm::vec3 &a = s.triangles.positions[corner.x], &b = s.triangles.positions[corner.y],
-                  &c = s.triangles.positions[corner.z];
-  const float u = hit.u, v = hit.v, w = 1.0f - u - v;
-  const glm::vec3 face =
-      hit.geometric_normal * -std::copysign(1.0f, glm::dot(direction, hit.geometric_normal));
-  const glm::vec3 smooth =
-      unitOr(s.normals[corner.x] * w + s.normals[corner.y] * u + s.normals[corner.z] * v, face);
-  const float side = glm::dot(smooth, face) < 0.0f ? -1.0f : 1.0f;
-  vertex.position = a * w + b * u + c * v;
-  vertex.geometric_normal = face;
-  vertex.ray_offset = trace::surfaceOffset(a, b, c);
-  if (s.uniform && !s.normal_mapped) {
-    vertex.normal = smooth * side;
-    vertex.lobes = &s.lobes;
-    return;
+  const glm::uvec3 corners = s.triangles.vertices[hit.triangle];
+  for (int c = 0; c < 3; ++c) {
+    arrivals.corners.positions[c].set(lane, s.triangles.positions[corners[c]]);
+    arrivals.corners.normals[c].set(lane, s.normals[corners[c]]);
   }
-  const trace::SurfacePoint at{hit.triangle, u, v},
-      texture_at{hit.triangle, u + texture_shift.x, v + texture_shift.y};
-  vertex.normal = side * (s.normal_mapped ? tilted(s, corner, at, texture_at, smooth) : smooth);
-  setLobes(vertex, hit.instance, at, texture_at);
+  arrivals.corners.u.at[lane] = hit.u;
+  arrivals.corners.v.at[lane] = hit.v;
+  arrivals.corners.face.set(lane, hit.geometric_normal);
+  setLobes(lanes, lane, s.lobes);
+  arrivals.glossy = arrivals.glossy || s.lobes.specular_share > 0.0f || !s.uniform;
+  arrivals.varied = (arrivals.varied & ~(1u << lane)) | (s.varied ? 1u << lane : 0u);
+  if (s.varied) {
+    arrivals.instance[lane] = hit.instance;
+    arrivals.triangle[lane] = hit.triangle;
+    arrivals.texture_shift[lane] = texture_shift;
+  }
+  return !s.uniform || !s.lobes.black;
+}
+
+void Surfaces::setVaried(PathLanes& lanes, int lane, const Arrivals& arrivals) const {
+  const Surface& s = instances_[std::size_t(arrivals.instance[lane])];
+  const glm::uvec3 corners = s.triangles.vertices[arrivals.triangle[lane]];
+  const float u = arrivals.corners.u.at[lane], v = arrivals.corners.v.at[lane];
+  const float texture_u = u + arrivals.texture_shift[lane].x, texture_v = v + arrivals.texture_shift[lane].y;
+  const Material& m = *s.material;
+  if (!s.uniform) {
+    glm::vec3 color = glm::vec3(m.base_color) * glm::vec3(s.base_color.at(corners, texture_u, texture_v));
+    if (s.colors) color *= glm::vec3(between(s.mesh->colors, corners, u, v));
+    const glm::vec4 map = s.metallic_roughness.at(corners, texture_u, texture_v);
+    setLobes(lanes, lane, readyLobes(color, m.metallic * map.b, m.roughness * map.g, m.specular));
+  }
+  if (!s.tangents.empty()) {
+    const glm::vec3 texel(s.normal.at(corners, texture_u, texture_v));
+    // In the frame of the side on which the mesh's normals are: turned round as a whole.
+    const glm::vec3 smooth = between(s.normals, corners, u, v), seen = lanes.normal.get(lane);
+    const float side = glm::dot(smooth, seen) < 0.0f ? -1.0f : 1.0f;
+    const glm::vec4 tangent = between(s.tangents, corners, u, v);
+    lanes.normal.set(lane, side * trace::mappedNormal(side * seen, tangent, texel, m.normal_scale));
+  }
+}
+
+void Surfaces::setVertices(PathLanes& lanes, const Arrivals& arrivals) const {
+  reference::setVertices(lanes, arrivals.corners);
+  for (std::uint32_t rest = arrivals.varied; rest != 0; rest &= rest - 1)
+    setVaried(lanes, std::countr_zero(rest), arrivals);
+  lanes.glossy = arrivals.glossy;
+  if (lanes.glossy) setMirrors(lanes);
 }
 
 glm::vec3 Surfaces::emission(int instance, int triangle, float u, float v,
                              const glm::vec2& texture_shift) const {
   const Surface& s = instances_[std::size_t(instance)];
-  if (!s.material->emission_map) return s.material->emission;
-  return trace::emission(scene_, *s.mesh, {triangle, u + texture_shift.x, v + texture_shift.y});
+  if (!s.emission) return s.material->emission;
+  return s.material->emission *
+         glm::vec3(s.emission.at(s.triangles.vertices[triangle], u + texture_shift.x, v + texture_shift.y));
 }
 
 bool Surfaces::isHole(int instance, int triangle, float u, float v) const {

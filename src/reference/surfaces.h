@@ -1,43 +1,38 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Everything in a posed scene that light meets, made ready for paths: normals in the world, and lobes worked out beforehand
-// where a material is the same all over.
+// Everything in a posed scene that light meets, made ready for paths: normals and tangents in the world, lobes worked out
+// beforehand where a material is the same all over, textures ready to be read.
 #pragma once
 
 #include <gloam/scene.h>
 
-#include <optional>
-
 #include "reference/lobes.h"
-#include "trace/surface.h"
+#include "reference/path_lanes.h"
+#include "reference/texture_reader.h"
 #include "trace/tracer.h"
 
 namespace gloam::reference {
-
-/// A point on a surface, seen from a side.
-struct Vertex {
-  glm::vec3 position{0.0f};
-  glm::vec3 geometric_normal{0.0f};   ///< unit, toward whoever looks
-  glm::vec3 normal{0.0f};             ///< shading normal, by the rule of sides (frame/README.md)
-  float ray_offset = 0.0f;            ///< rays start that far off, along the geometric normal (trace/rays.h)
-  const LobesReady* lobes = nullptr;  ///< those of the whole surface, or own_lobes
-  std::optional<LobesReady> own_lobes;
-
-  Vertex() = default;
-  Vertex(const Vertex&) = delete;
-  glm::vec3 rayOrigin() const { return position + geometric_normal * ray_offset; }
-};
 
 class Surfaces {
  public:
   /// Keeps references to `scene` and `tracer`. Throws Error for a mesh without normals.
   Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tracer& tracer);
 
-  /// What a ray in that direction meets. `texture_shift` moves textures alone: by that much of the triangle's coordinates.
-  void setVertex(Vertex& vertex, const trace::Hit& hit, const glm::vec3& direction,
-                 const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
-  /// Sends for what setVertex will need: first which vertices, then, when that has come, the vertices.
+  /// What rays have met, gathered lane by lane.
+  struct Arrivals {
+    CornerLanes corners;
+    std::uint32_t varied = 0;  ///< bit i: lane i's lobes or normal come from textures or vertex colours
+    bool glossy = false;
+    std::int32_t instance[kLanes], triangle[kLanes];  ///< of varied lanes
+    glm::vec2 texture_shift[kLanes];  ///< the same; moves textures alone, in the triangle's coordinates
+  };
+  /// One more vertex. False where nothing is sent back: then the lane may be taken by another.
+  bool arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trace::Hit& hit,
+              const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
+  /// The vertices of all lanes, from to_view and what has arrived.
+  void setVertices(PathLanes& lanes, const Arrivals& arrivals) const;
+  /// Sends for what arrive() will need: first which vertices, then, when that has come, the vertices.
   void prefetchCorners(const trace::Hit& hit) const {
     __builtin_prefetch(&instances_[std::size_t(hit.instance)].triangles.vertices[hit.triangle]);
   }
@@ -64,28 +59,24 @@ class Surfaces {
   std::size_t triangleCount(int instance) const {
     return instances_[std::size_t(instance)].mesh->triangleCount();
   }
-  /// Sets the lobes alone: where neither maps nor vertex colours vary them, the same everywhere.
-  void setLobes(Vertex& vertex, int instance, const trace::SurfacePoint& at,
-                const trace::SurfacePoint& texture_at) const;
 
  private:
   struct Surface {
     const Mesh* mesh = nullptr;
     const Material* material = nullptr;
     trace::Tracer::Triangles triangles;
-    const glm::vec3* normals = nullptr;  // in the world
-    std::vector<glm::vec3> own_normals;
-    std::vector<glm::vec4> own_tangents;  // of deformed instances
-    const glm::vec4* tangents = nullptr;  // before world_from_tangent
-    glm::mat3 world_from_tangent{1.0f};
-    float handedness = 1.0f;
+    std::vector<glm::vec3> normals;   // in the world
+    std::vector<glm::vec4> tangents;  // in the world, where there is a normal map
+    TextureReader base_color, metallic_roughness, normal, emission;
+    const glm::vec4* colors = nullptr;
     LobesReady lobes;     // where uniform
     bool uniform = true;  // neither maps nor vertex colours in the lobes
-    bool textured = false, normal_mapped = false, emits = false, holes = false;
+    bool varied = false;  // not uniform, or a normal map
+    bool textured = false, emits = false, holes = false;
   };
   Surface makeSurface(const Instance& instance, trace::Tracer::Triangles triangles) const;
-  glm::vec3 tilted(const Surface& surface, const glm::uvec3& corners, const trace::SurfacePoint& at,
-                   const trace::SurfacePoint& texture_at, const glm::vec3& normal) const;
+  void setVaried(PathLanes& lanes, int lane, const Arrivals& arrivals) const;
+  static void setLobes(PathLanes& lanes, int lane, const LobesReady& lobes);
 
   const Scene& scene_;
   std::vector<Surface> instances_;

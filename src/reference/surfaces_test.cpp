@@ -7,51 +7,128 @@
 #include <algorithm>
 
 #include "math/sampling.h"
-#include "reference/lobes.h"
 #include "reference/test_points.h"
 #include "scene/builtin_shapes.h"
 #include "scene/camera_rays.h"
+#include "trace/surface.h"
 
 namespace gloam::reference {
 namespace {
 
-TEST(PointLobes, AreThoseOfTheBrdf) {
+// Sixteen paths at one point.
+struct AtPoint {
+  brdf::Lobes lobes;
+  glm::vec3 normal, to_view;
+  PathLanes lanes{};
+
+  AtPoint(const brdf::Lobes& given, const glm::vec3& n, const glm::vec3& v)
+      : lobes(given), normal(n), to_view(v) {
+    for (int i = 0; i < kLanes; ++i) {
+      lanes.throughput.set(i, glm::vec3(1.0f));
+      lanes.geometric_normal.set(i, n);
+      lanes.normal.set(i, n);
+      lanes.to_view.set(i, v);
+      lanes.diffuse.set(i, lobes.diffuse);
+      lanes.specular.set(i, lobes.specular);
+      lanes.exponent.at[i] = lobes.exponent;
+      lanes.specular_share.at[i] = brdf::specularProbability(lobes);
+    }
+    lanes.glossy = brdf::specularProbability(lobes) > 0.0f;
+    setMirrors(lanes);
+  }
+  void chooseFrom(std::uint32_t first) {
+    for (int i = 0; i < kLanes; ++i) lanes.place.at[i] = bits::reversedBits(first + std::uint32_t(i));
+    chooseSteps(lanes, Sampler(1, 2, 0).scramble(3));
+  }
+};
+
+TEST(PathLanes, LobesAreThoseOfTheBrdf) {
   for (const brdf::Lobes& lobes :
        {brdf::makeLobes({0.7f, 0.4f, 0.1f}, 0.0f, 0.5f), brdf::makeLobes({0.9f, 0.8f, 0.1f}, 1.0f, 0.2f),
         brdf::makeLobes(glm::vec3(0.5f), 0.3f, 1.0f), brdf::makeLobes(glm::vec3(0.5f), 0.0f, 1.0f, 0.0f)}) {
-    const LobesReady ready(lobes);
-    const glm::vec3 normal = glm::normalize(glm::vec3(0.1f, 1.0f, -0.2f)),
-                    to_view = glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f));
-    const PointLobes at_point(ready, normal, to_view);
-    for (std::uint32_t i = 0; i < 2000; ++i) {
-      const glm::vec2 u = sampling::r2(i);
-      for (const glm::vec3& d : {at_point.sample(u), sampling::uniformSphere(u)}) {
-        const glm::vec3 want = brdf::evaluateLobes(lobes, normal, to_view, d);
-        const PointLobes::Value got = at_point.at(d);
-        EXPECT_LT(glm::length(got.value - want), 1e-5f + 1e-4f * glm::length(want));
-        const float pdf = brdf::lobesPdf(lobes, normal, to_view, d);
-        EXPECT_NEAR(got.pdf, pdf, 1e-5f + 1e-4f * pdf);
+    AtPoint at(lobes, glm::normalize(glm::vec3(0.1f, 1.0f, -0.2f)),
+               glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f)));
+    for (std::uint32_t k = 0; k < 2000; k += kLanes) {
+      LaneVectors values;
+      LaneFloats pdfs;
+      at.chooseFrom(k);
+      const LaneVectors steps = at.lanes.direction;
+      LaneVectors anywhere;
+      for (int i = 0; i < kLanes; ++i)
+        anywhere.set(i, sampling::uniformSphere(sampling::r2(k + std::uint32_t(i))));
+      for (const LaneVectors& directions : {steps, anywhere}) {
+        lobesOfLanes(at.lanes, directions, values, pdfs);
+        for (int i = 0; i < kLanes; ++i) {
+          const glm::vec3 d = directions.get(i);
+          const glm::vec3 want = brdf::evaluateLobes(lobes, at.normal, at.to_view, d);
+          EXPECT_LT(glm::length(values.get(i) - want), 1e-5f + 2e-4f * glm::length(want));
+          const float pdf = brdf::lobesPdf(lobes, at.normal, at.to_view, d);
+          EXPECT_NEAR(pdfs.at[i], pdf, 1e-5f + 2e-4f * pdf);
+        }
       }
     }
   }
 }
 
 // Mean of f / density over the lobes' own samples is the integral of f, here of the lobes' value times a smooth function.
-TEST(PointLobes, SamplesFollowTheirDensity) {
-  const LobesReady ready(brdf::makeLobes({0.7f, 0.4f, 0.1f}, 0.2f, 0.6f));
-  const glm::vec3 normal(0.0f, 1.0f, 0.0f), to_view = glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f));
-  const PointLobes at_point(ready, normal, to_view);
+TEST(PathLanes, StepsFollowTheirDensity) {
+  const brdf::Lobes lobes = brdf::makeLobes({0.7f, 0.4f, 0.1f}, 0.2f, 0.6f);
+  AtPoint at(lobes, {0.0f, 1.0f, 0.0f}, glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f)));
   const auto smooth = [](const glm::vec3& d) { return 1.0 + double(d.x) * double(d.y) - 0.5 * double(d.z); };
   double by_lobes = 0.0, by_sphere = 0.0;
   constexpr std::uint32_t kCount = 1 << 17;
-  for (std::uint32_t i = 0; i < kCount; ++i) {
-    const glm::vec2 u = sampling::sobol2(i);
-    const glm::vec3 a = at_point.sample(u), b = sampling::uniformSphere(u);
-    const PointLobes::Value value = at_point.at(a);
-    by_lobes += double(value.value.g / value.pdf) * smooth(a) / kCount;
-    by_sphere += double(at_point.at(b).value.g) * smooth(b) * 4.0 * double(sampling::kPi) / kCount;
+  for (std::uint32_t k = 0; k < kCount; k += kLanes) {
+    at.chooseFrom(k);
+    for (int i = 0; i < kLanes; ++i) {
+      by_lobes += double(at.lanes.step.get(i).g) * smooth(at.lanes.direction.get(i)) / kCount;
+      const glm::vec3 b = sampling::uniformSphere(sampling::sobol2(k + std::uint32_t(i)));
+      if (b.y > 0.0f)  // below, no step is taken
+        by_sphere += double(brdf::evaluateLobes(lobes, at.normal, at.to_view, b).g) * smooth(b) * 4.0 *
+                     double(sampling::kPi) / kCount;
+    }
   }
   EXPECT_NEAR(by_lobes, by_sphere, 1e-3 * by_sphere);
+}
+
+// A narrow lobe keeps its energy: value over density, in floats, for the smoothest surface there is.
+TEST(PathLanes, MirrorsKeepTheirEnergy) {
+  const brdf::Lobes lobes = brdf::makeLobes(glm::vec3(1.0f), 1.0f, 0.0f);
+  AtPoint at(lobes, {0.0f, 1.0f, 0.0f}, glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f)));
+  for (std::uint32_t k = 0; k < 256; k += kLanes) {
+    at.chooseFrom(k);
+    for (int i = 0; i < kLanes; ++i) {
+      EXPECT_NEAR(at.lanes.step.get(i).g, 1.0f, 1e-4f);
+      EXPECT_GT(glm::dot(at.lanes.direction.get(i), at.lanes.mirror.get(i)), 0.9999f);
+    }
+  }
+}
+
+// What is read of textures is what trace/surface.h reads.
+TEST(TextureReader, IsTheFunctionForOnePoint) {
+  Scene scene;
+  Texture texture{"", 3, 5, {}};
+  for (int i = 0; i < 3 * 5 * 4; ++i) texture.rgba.push_back(std::uint8_t(i * 37 % 256));
+  scene.textures.push_back(texture);
+  Mesh mesh;
+  mesh.indices = {0, 1, 2};
+  mesh.uv_sets = {{{-3.3f, 0.2f}, {2.7f, -1.9f}, {0.4f, 5.1f}}, {{0.1f, 0.1f}, {0.9f, 0.0f}, {1.0f, 1.0f}}};
+  for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToEdge}) {
+    for (const bool nearest : {false, true}) {
+      for (const int set : {0, 1, 2}) {
+        TextureSlot slot{0, set, wrap, wrap, nearest};
+        slot.texture_from_uv = {1.5f, 0.25f, 0.0f, -0.5f, 2.0f, 0.0f, 0.3f, -0.7f, 1.0f};
+        for (const bool srgb : {false, true}) {
+          const TextureReader reader(scene, slot, mesh, srgb);
+          for (std::uint32_t i = 0; i < 300; ++i) {
+            const glm::vec2 u = 3.0f * sampling::r2(i) - 1.0f;
+            const glm::vec4 want = trace::sampleTexture(scene, slot, mesh, {0, u.x, u.y}, srgb);
+            EXPECT_LT(glm::length(reader.at({0, 1, 2}, u.x, u.y) - want), 1e-4f);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(TextureReader().at({0, 1, 2}, 0.3f, 0.3f), glm::vec4(1.0f));
 }
 
 Mesh sheet(bool turned) {

@@ -50,7 +50,7 @@ glm::vec3 irradiance(const Transfer& transfer, const sh::ShRgb& light, std::size
 }
 
 /// A vertex as the path tracer sees it: in one of its triangles, the vertex's own normal for both normals, as in a bake.
-reference::CameraPoint pointAt(const Mesh& mesh, const trace::Tracer& tracer, std::size_t corner) {
+reference::CameraPoint pointAt(const Mesh& mesh, std::size_t corner) {
   const std::uint32_t vertex = mesh.indices[corner];
   reference::CameraPoint point;
   point.instance = 0;
@@ -61,10 +61,6 @@ reference::CameraPoint pointAt(const Mesh& mesh, const trace::Tracer& tracer, st
   point.position = mesh.positions[vertex];
   point.normal = point.geometric_normal = point.to_eye = glm::normalize(mesh.normals[vertex]);
   point.albedo = glm::vec3(0.8f, 0.6f, 0.4f);
-  trace::Hit hit;
-  hit.instance = 0;
-  hit.triangle = point.triangle;
-  point.ray_offset = tracer.surfaceOffset(hit);
   return point;
 }
 
@@ -93,7 +89,7 @@ double relativeRmse(bool bounced) {
   std::vector<double> squared(count), reference_squared(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     const std::size_t corner = i * step;
-    const reference::CameraPoint point = pointAt(mesh, integrator.tracer(), corner);
+    const reference::CameraPoint point = pointAt(mesh, corner);
     glm::vec3 found[2] = {};
     std::size_t rays = 0;
     for (std::uint32_t replicate = 0; replicate < 2; ++replicate) {

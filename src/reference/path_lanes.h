@@ -1,0 +1,75 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Sixteen paths side by side and what they work out between two rays, in vectors (path_lanes_simd.cpp). What comes to a lane
+// does not depend on its company. Lanes at and beyond a batch's count hold leftovers: worked on, never read.
+#pragma once
+
+#include <span>
+
+#include "reference/lamps.h"
+#include "reference/lanes.h"
+
+namespace gloam::reference {
+
+struct PathLanes {
+  LaneBits place;  ///< Sampler::place
+  LaneInts slot;   ///< whose light it is
+  LaneVectors throughput;
+  // The vertex.
+  LaneVectors position, origin;          ///< rays start at the latter
+  LaneVectors geometric_normal, normal;  ///< unit, toward whoever looks; the second to be shaded by
+  LaneVectors to_view, mirror;           ///< unit; mirror only where `glossy`
+  LaneVectors diffuse, specular;         ///< brdf::Lobes
+  LaneFloats exponent;
+  LaneFloats specular_share;  ///< brdf::specularProbability
+  // The step by lobes.
+  LaneVectors direction, step;  ///< the latter: throughput beyond it; 0 where there is none
+  LaneFloats pdf;               ///< 1/sr; 0: no step
+  bool glossy;                  ///< some lane has a Phong lobe
+};
+
+/// Where rays meet triangles: corners, their normals in the world, the place between them.
+struct CornerLanes {
+  LaneVectors positions[3], normals[3];
+  LaneFloats u, v;
+  LaneVectors face;  ///< Hit::geometric_normal
+};
+/// Sets position, origin and both normals, by the rule of sides (frame/README.md); from to_view. The shading normal is not
+/// yet tilted.
+void setVertices(PathLanes& lanes, const CornerLanes& corners);
+/// Sets mirror, once the normals stand.
+void setMirrors(PathLanes& lanes);
+
+/// Chooses steps by the lobes (brdf::sampleLobes, the choice of the lobe taken out of the first number).
+void chooseSteps(PathLanes& lanes, const Sampler::Scramble& scramble);
+
+/// brdf::evaluateLobes and lobesPdf of one direction a lane.
+void lobesOfLanes(const PathLanes& lanes, const LaneVectors& directions, LaneVectors& values,
+                  LaneFloats& pdfs);
+
+/// Rays toward light, and what they bring if nothing is in the way.
+struct LightLanes {
+  LaneVectors direction, light;
+  LaneFloats t_far;
+  std::uint32_t wanted;  ///< bit i: lane i has light and its ray would leave on the right side
+};
+/// Light from afar: `direction` is set, `radiance` comes with density `pdf`. `both`: joined with the lobes' by the power
+/// heuristic (Veach 1997).
+void lightFromSky(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
+                  LightLanes& light);
+/// Light that steps find in the sky: `light` is 0 where there is none.
+void lightOfSteps(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
+                  LaneVectors& light);
+/// Points on triangles that shine.
+struct EmitterLanes {
+  LaneVectors position, normal, radiance;
+  LaneFloats area_pdf, ray_offset;
+};
+void lightFromEmitters(const PathLanes& lanes, const EmitterLanes& points, bool both, LightLanes& light);
+void lightFromLamp(const PathLanes& lanes, const Lamp& lamp, LightLanes& light);
+/// One of many, by what it would give without shadow; what is left of the number chooses on.
+void lightFromOneLamp(const PathLanes& lanes, std::span<const Lamp> lamps, const Sampler::Scramble& scramble,
+                      LightLanes& light);
+
+}  // namespace gloam::reference

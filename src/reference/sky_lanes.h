@@ -1,0 +1,48 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// A picture of the sky, made ready for sixteen directions at once (sky_lanes_simd.cpp); EnvironmentSampler owns it.
+#pragma once
+
+#include <vector>
+
+#include "reference/lanes.h"
+
+namespace gloam::reference {
+
+struct SkyTable {
+  int width = 0, height = 0;  ///< texels
+  /// (width + 1) x (height + 2), a border around; w: importance. Cell (x, y) lies between the texels (x, y) and (x + 1, y + 1).
+  std::vector<glm::vec4> texels;
+  float cos_rotation = 1.0f, sin_rotation = 0.0f;
+  float turned = 0.5f;        ///< longitude 0 in the picture, as a share of its width
+  float polar_height = 0.0f;  ///< of the caps above and below the outermost texel centres
+  std::vector<float>
+      density;  ///< of each row of cells; times importance (/ cos elevation, but at the poles): the density
+  /// Inverse of the cumulative distribution of rows, and of the cells in each of them (Distribution's, one after another,
+  /// each closed by the largest number).
+  std::vector<std::uint32_t> row_starts, row_first, cell_starts, cell_first;
+  int row_shift = 0, cell_shift = 0;
+};
+
+/// Where directions lie: a cell and a place in it.
+struct SkyPlaces {
+  LaneInts cell_x, cell_y;
+  LaneFloats x, y;
+  LaneFloats cos_elevation;  ///< unknown as long as it comes from chooseCells
+};
+struct SkyLight {
+  LaneVectors radiance;
+  LaneFloats pdf;  ///< 1/sr
+};
+
+/// Cells by their light, from numbers as Sampler::numbers gives them; x and y are what is left of those. Cells are on their
+/// way from memory when this returns, as they are with the next: use them later.
+void chooseCells(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& places,
+                 SkyPlaces& cells);
+void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places);
+/// Places within chosen cells with the bilinear density, and the directions to them.
+void placeInCells(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions);
+void lightAt(const SkyTable& sky, const SkyPlaces& places, SkyLight& light);
+
+}  // namespace gloam::reference
