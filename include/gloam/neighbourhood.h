@@ -12,6 +12,8 @@ namespace gloam {
 /// In the axes of the node that carries it. At point (x, y, z), x first, of a regular grid: from the light's coefficients (a
 /// bands) to those of the radiance that arrives there (b bands). Visibility stands as in GlossyTransfer: V of (a + b - 1)
 /// bands, of which the matrix is GS_ij = sum over k of Gamma_ijk V_k; here V has no tangent plane, it is that of free space.
+/// Points stand in the node's own coordinates, directions in its axes without scale, as those of transfer. Where a point lies
+/// inside the object it holds what its neighbours outside hold, so that interpolation stays sound.
 struct NeighbourhoodTransfer {
   glm::vec3 first_point{0.0f}, spacing{1.0f};
   glm::ivec3 size{0};                    ///< points along each axis, 2 at least
@@ -20,6 +22,64 @@ struct NeighbourhoodTransfer {
   std::vector<float> visibility;         ///< [point][coefficient]
   std::vector<float> indirect;           ///< [point][i][j][rgb], i < b^2, j < a^2; empty without bounces
   std::size_t points() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
+  std::size_t visibilityCount() const {
+    const int bands = light_order + field_order - 1;
+    return std::size_t(bands * bands);
+  }
+  std::size_t matrixCount() const {
+    return std::size_t(light_order * light_order * field_order * field_order);
+  }
+  glm::vec3 position(std::size_t point) const {
+    const std::size_t x = std::size_t(size.x), y = std::size_t(size.y);
+    return first_point + spacing * glm::vec3(float(point % x), float(point / x % y), float(point / (x * y)));
+  }
 };
+
+struct NeighbourhoodOptions {
+  glm::ivec3 size{16, 0, 0};  ///< points along each axis, 2 to 128; y and z 0: as many along the longest side
+  float reach = 1.0f;  ///< how far the grid goes beyond the object, in lengths of its longest side; 0 to 16
+  int order = 5;       ///< bands of light and of radiance, 3 to 6
+  bool thrown = true;  ///< light that the object throws, too, as far as its meshes carry transfer
+  int directions = 10000;            ///< from a point, 256 to 65536; rounded up to whole tiles of 16
+  int thrown_directions = 2048;      ///< of the same set, 64 to 65536: along which thrown light is gathered
+  int threads = 0;                   ///< 0: all cores. The result does not depend on it
+  float time_s = 0.0f;               ///< instant at which the object is posed
+  std::size_t memory_bytes = 0;      ///< most that the bake may take; 0: what the machine has
+  int error_points = 400;            ///< at random in the grid, at which the error is measured; 0: it is not
+  std::filesystem::path checkpoint;  ///< as BakeOptions::checkpoint
+};
+
+struct NeighbourhoodEstimate {
+  glm::ivec3 size{0};
+  std::size_t points = 0, rays = 0;
+  std::size_t memory_bytes = 0, file_bytes = 0;
+};
+
+struct NeighbourhoodReport {
+  std::size_t points = 0, inside = 0;  ///< in all, and of these in the object
+  std::size_t rays = 0, thrown_rays = 0;
+  double seconds = 0.0;
+  bool resumed = false;
+  /// Relative RMSE of irradiance as the grid gives it, interpolated, against that of visibility traced at the place itself;
+  /// at random places of the grid outside the object, on surfaces of all directions, under light whose coefficients fall
+  /// with their band as 1 / (l + 1).
+  double error = 0.0;
+};
+
+/// Nodes that a neighbourhood can be baked for: the objects of BakeOptions::apart.
+std::vector<int> neighbourhoodNodes(const Scene& scene, float time_s = 0.0f);
+/// Whether animation moves that node, or anything below it.
+bool animationMoves(const Scene& scene, int node);
+
+/// Throws Error where the options are out of range.
+NeighbourhoodEstimate estimateNeighbourhood(const Scene& scene, int node,
+                                            const NeighbourhoodOptions& options);
+
+/// Of the rigid meshes at and below a node, in free space. Light that the object throws is made of its meshes' own transfer
+/// (bakeTransfer with `apart`) and of mirror-like metals, which are followed ray by ray. Same bits for any number of threads.
+/// Throws Error for options out of range, a node without rigid triangles and a grid that does not fit into memory;
+/// Interrupted when asked to stop (the checkpoint stays).
+NeighbourhoodTransfer bakeNeighbourhood(const Scene& scene, int node, const NeighbourhoodOptions& options,
+                                        const Progress& progress = {}, NeighbourhoodReport* report = nullptr);
 
 }  // namespace gloam

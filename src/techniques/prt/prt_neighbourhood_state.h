@@ -1,0 +1,64 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What a bake of a neighbourhood knows so far, and the file that keeps it across interruptions.
+#pragma once
+
+#include <gloam/neighbourhood.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "scene/scene_fingerprint.h"
+
+namespace gloam::prt {
+
+/// Points are worked on in blocks of this many; each block's result depends on nothing else.
+inline constexpr std::size_t kNeighbourhoodBlock = 8;
+
+struct NeighbourhoodState {
+  NeighbourhoodTransfer grid;        ///< filled as blocks are done
+  std::vector<std::uint8_t> inside;  ///< [point]: in the object
+  std::size_t blocks = 0;
+  std::unique_ptr<std::atomic<std::uint8_t>[]> block_done;
+  std::size_t blockBegin(std::size_t block) const { return block * kNeighbourhoodBlock; }
+  std::size_t blockEnd(std::size_t block) const {
+    return std::min(grid.points(), (block + 1) * kNeighbourhoodBlock);
+  }
+};
+
+/// As writeCheckpoint and readCheckpoint (prt_bake_state.h).
+void writeNeighbourhood(const std::filesystem::path& path, const Fingerprint& fingerprint,
+                        const NeighbourhoodState& state);
+bool readNeighbourhood(const std::filesystem::path& path, const Fingerprint& fingerprint,
+                       NeighbourhoodState& state);
+
+/// Tells how far the bake is, asks whether to stop, keeps the checkpoint fresh. Called by all threads.
+class NeighbourhoodMeter {
+ public:
+  NeighbourhoodMeter(const Progress& progress, const std::filesystem::path& checkpoint,
+                     const Fingerprint& fingerprint, const NeighbourhoodState& state);
+  /// After each block; `rays` were traced in it. Returns false to stop.
+  bool blockDone(std::size_t rays);
+  /// Keeps what is done and throws Interrupted.
+  [[noreturn]] void interrupt();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double fractionDone() const;
+  void report();
+  void save();
+
+  const Progress& progress_;
+  const std::filesystem::path checkpoint_;
+  const Fingerprint& fingerprint_;
+  const NeighbourhoodState& state_;
+  std::atomic<std::size_t> rays_{0};
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now(), last_report_{}, last_save_ = Clock::now();
+};
+
+}  // namespace gloam::prt
