@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Objects on a plinth: materials side by side, soft shadows, rigid motion.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -99,6 +100,27 @@ Scene makeBronze(const Detail& detail, NamedValues&) {
   builder.place("blue ball", shapes::icosphere(0.24f, detail(12)),
                 builder.diffuse("blue glaze", {0.06f, 0.22f, 0.6f}), {-0.86f, 0.24f, 0.5f});
   builder.camera({0.9f, 2.1f, 4.0f}, {0, 0.42f, 0.05f}, 32);
+  builder.sky("studio?rotation=-65");
+  return builder.finish();
+}
+
+// Sloan, Kautz, Snyder 2002 show a ring's caustic. Polished: its lobe is sharper than any number of bands.
+Scene makeCaustic(const Detail& detail, NamedValues&) {
+  SceneBuilder builder("caustic");
+  builder.place("plaster", shapes::slab(1.5f, 1.5f, 0.16f, 0.04f, detail.cell(0.018f)),
+                builder.diffuse("plaster", {0.68f, 0.67f, 0.64f}));
+  constexpr float kInside = 0.7f, kThickness = 0.06f, kHeight = 0.42f, kRound = 0.03f;
+  const float middle = kInside + 0.5f * kThickness;
+  const auto up =
+      shapes::line({kInside + kThickness, kRound}, {kInside + kThickness, kHeight - kRound}, detail(4));
+  const auto over = shapes::arc({middle, kHeight - kRound}, kRound, 0.0f, kPi, detail(10));
+  const auto down = shapes::line({kInside, kHeight - kRound}, {kInside, kRound}, detail(4));
+  const auto under = shapes::arc({middle, kRound}, kRound, kPi, 2.0f * kPi, detail(10));
+  auto profile = shapes::joined({up, over, down, under});
+  std::reverse(profile.begin(), profile.end());
+  builder.place("ring", shapes::revolve({profile}, detail(160)),
+                builder.metal("gold", {1.0f, 0.78f, 0.34f}, 0.08f), {0, 0.001f, 0});
+  builder.camera({0.3f, 2.9f, 3.3f}, {0, 0.08f, 0.05f}, 32);
   builder.sky("studio?rotation=-65");
   return builder.finish();
 }

@@ -16,6 +16,7 @@
 
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_passes.h"
+#include "techniques/prt/prt_bake_plan.h"
 
 namespace gloam {
 namespace {
@@ -76,7 +77,7 @@ double median(std::vector<double> values) {
 }
 
 PrtBakeBench measure(const BakePoints& points, const trace::Tracer& tracer, const DirectionTables& tables,
-                     const BakePasses& passes, BakeState& state, int rounds) {
+                     BakePasses& passes, BakePasses& forgetful, BakeState& state, int rounds) {
   // As many blocks as a core does in a quarter of a second, found by trying; spread evenly.
   std::size_t chosen = std::min<std::size_t>(state.blocks, 16);
   const auto blockAt = [&](std::size_t i) { return i * state.blocks / chosen; };
@@ -98,7 +99,14 @@ PrtBakeBench measure(const BakePoints& points, const trace::Tracer& tracer, cons
   bench.rays = rays;
   bench.rounds = rounds;
   for (const auto& block : packets) bench.points += block.size();
-  std::vector<double> bare, bake, ratio;
+  const auto bounce = [&](BakePasses& with, int pass) {
+    state.pass = pass;
+    const double time_s = secondsOf(chosen, [&](std::size_t i) { with.bounceBlock(blockAt(i), state); });
+    state.pass = 0;
+    return time_s;
+  };
+  if (state.bounces > 0) bounce(passes, 1);  // finds the hits, which are kept
+  std::vector<double> bare, bake, ratio, first_bounce, later_bounce;
   for (int round = 0; round < rounds; ++round) {
     const double bare_s = secondsOf(chosen, [&](std::size_t i) {
       for (const PointPackets& p : packets[i]) traceBare(tracer, tables, p);
@@ -107,10 +115,17 @@ PrtBakeBench measure(const BakePoints& points, const trace::Tracer& tracer, cons
     bare.push_back(double(bench.rays) * 1e-6 / bare_s);
     bake.push_back(double(bench.rays) * 1e-6 / bake_s);
     ratio.push_back(bake.back() / bare.back());
+    if (state.bounces == 0) continue;
+    first_bounce.push_back(bounce(forgetful, 1) / bake_s);
+    later_bounce.push_back(bounce(passes, 2) / bake_s);
   }
   bench.bare_mrays_s = median(bare);
   bench.bake_mrays_s = median(bake);
   bench.ratio = median(ratio);
+  if (state.bounces > 0) {
+    bench.first_bounce = median(first_bounce);
+    bench.later_bounce = median(later_bounce);
+  }
   return bench;
 }
 
@@ -129,13 +144,17 @@ PrtBakeBench benchBake(const Scene& scene, const BakeOptions& options, int round
   tbb::task_arena(cores).execute([&] {
     const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true});
     BakeState state =
-        makeBakeState(points.size(), tables, options.kind == TransferKind::kInterreflected ? 1 : 0);
+        makeBakeState(points.size(), tables, options.kind == TransferKind::kInterreflected ? 2 : 0,
+                      followsMirrors(scene, posed, options));
     state.glossy = makeGlossyState(scene, posed, points, options);
     std::optional<GlossyTables> glossy;
     if (!state.glossy.empty())
       glossy.emplace(state.glossy.layout, tables).instances.assign(posed.instances.size(), 1);
-    const BakePasses passes(scene, posed, points, tracer, tables, glossy ? &*glossy : nullptr);
-    bench = measure(points, tracer, tables, passes, state, std::max(1, rounds));
+    PassSettings settings{.bounces = state.bounces, .caustics = options.caustics};
+    BakePasses passes(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
+    settings.kept_bytes = 0;
+    BakePasses forgetful(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
+    bench = measure(points, tracer, tables, passes, forgetful, state, std::max(1, rounds));
   });
   return bench;
 }

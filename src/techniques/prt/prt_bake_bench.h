@@ -17,6 +17,9 @@ struct PrtBakeBench {
       0.0;  ///< median: packets of the same rays handed to the tracing library and nothing else
   double bake_mrays_s = 0.0;  ///< median: the first pass with culling, occlusion bits and SH projection
   double ratio = 0.0;         ///< median over rounds of bake / bare of one round
+  /// Median time of a bounce over that of the first pass of the same round: one that traces its rays, one that finds its
+  /// hits kept. 0 without bounces.
+  double first_bounce = 0.0, later_bounce = 0.0;
 };
 
 /// Measures both in turn on all cores (options.threads), in `rounds` pairs of about a quarter of a second each half, so that

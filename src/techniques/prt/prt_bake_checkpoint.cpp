@@ -8,7 +8,7 @@
 namespace gloam::prt {
 namespace {
 
-constexpr CheckpointKind kBake{{'g', 'l', 'o', 'a', 'm', 'p', 'r', 't'}, 2, "a bake"};
+constexpr CheckpointKind kBake{{'g', 'l', 'o', 'a', 'm', 'p', 'r', 't'}, 3, "a bake"};
 
 // Calls visit(data, bytes) for all that a checkpoint holds, in its order: first what earlier passes finished, then the
 // done blocks of this pass.
@@ -31,6 +31,8 @@ void forContents(State& state, const std::vector<std::uint8_t>& done, const Visi
     firstPass(0, state.points);
     rows(state.previous, 0, state.points, state.row);
     rows(state.indirect, 0, state.points, state.row);
+    for (auto& earlier : state.earlier) rows(earlier, 0, state.points, state.row);
+    if (state.pass > 1 && !state.bounce_used.empty()) rows(state.bounce_used, 0, state.points, 1);
     glossyRows(state.glossy.previous, 0, state.points, matrix);
     glossyRows(state.glossy.sum, 0, state.points, matrix);
   }
@@ -40,6 +42,8 @@ void forContents(State& state, const std::vector<std::uint8_t>& done, const Visi
       firstPass(state.blockBegin(b), state.blockEnd(b));
     } else {
       rows(state.next, state.blockBegin(b), state.blockEnd(b), state.row);
+      if (state.pass == 1 && !state.bounce_used.empty())
+        rows(state.bounce_used, state.blockBegin(b), state.blockEnd(b), 1);
       glossyRows(state.glossy.next, state.blockBegin(b), state.blockEnd(b), matrix);
     }
   }

@@ -49,6 +49,12 @@ int levelsFor(int count, int bounce_count) {
   return levels;
 }
 
+int stepsFor(int count) {
+  int steps = 1;
+  while (steps < 10 && (count >> steps) >= kFirstStep * 3 / 4) ++steps;
+  return steps;
+}
+
 int nearestPrefix(const std::vector<int>& prefixes, int wanted) {
   int best = prefixes.back();
   for (const int p : prefixes) {
@@ -57,7 +63,8 @@ int nearestPrefix(const std::vector<int>& prefixes, int wanted) {
   return best;
 }
 
-void fillTile(const sampling::TiledDirections& set, int source, int tile, DirectionTables& tables) {
+void fillTile(const sampling::TiledDirections& set, int source, int tile, std::size_t cone_place,
+              DirectionTables& tables) {
   float* directions = tables.directions.get() + std::size_t(tile) * 3 * kTileSize;
   float* basis = tables.basis.get() + std::size_t(tile) * std::size_t(tables.coefficients) * kTileSize;
   for (int k = 0; k < kTileSize; ++k) {
@@ -67,34 +74,39 @@ void fillTile(const sampling::TiledDirections& set, int source, int tile, Direct
     for (int i = 0; i < tables.coefficients; ++i) basis[i * kTileSize + k] = y[i];
   }
   const auto& cone = set.cones[std::size_t(source)];
-  float* row = tables.cones.get() + tile;
+  float* row = tables.cones.get() + cone_place;
   for (int axis = 0; axis < 3; ++axis) row[std::size_t(axis) * tables.cone_stride] = cone.axis[axis];
   row[3 * tables.cone_stride] = std::sqrt(std::max(0.0f, 1.0f - cone.cos_half_angle * cone.cos_half_angle));
 }
 
 }  // namespace
 
-float DirectionTables::solidAngle() const {
-  return sampling::TiledDirections::solidAngle(tiles);
-}
-float DirectionTables::bounceSolidAngle() const {
-  return sampling::TiledDirections::solidAngle(bounce_tiles);
+float DirectionTables::solidAngle(std::size_t tile_count) {
+  return sampling::TiledDirections::solidAngle(int(tile_count));
 }
 
 std::size_t DirectionTables::memoryBytes() const {
   return std::size_t(tiles) * kTileSize * std::size_t(3 + coefficients) * sizeof(float);
 }
 
-DirectionTables makeDirectionTables(int order, int count, int bounce_count) {
-  const auto set = sampling::makeTiledDirections(count, levelsFor(count, bounce_count));
+DirectionTables makeDirectionTables(int order, int count, int bounce_count, bool in_steps) {
+  const auto set =
+      sampling::makeTiledDirections(count, in_steps ? stepsFor(count) : levelsFor(count, bounce_count));
   static_assert(sampling::TiledDirections::kTileSize == kTileSize);
   DirectionTables tables;
   tables.order = order;
   tables.coefficients = sh::coefficientCount(order);
   tables.tiles = set.tiles();
   tables.bounce_tiles = nearestPrefix(set.even_prefixes, (bounce_count + kTileSize - 1) / kTileSize);
+  const std::vector<int> ends = in_steps ? set.even_prefixes : std::vector<int>{tables.tiles};
+  for (const int end : ends) {
+    DirectionBatch& batch = tables.batches.emplace_back();
+    batch.first = tables.batches.size() > 1 ? tables.batches[tables.batches.size() - 2].end : 0;
+    batch.end = end;
+    batch.first_cone = tables.cone_stride;
+    tables.cone_stride += std::size_t(end - batch.first + 15) / 16 * 16;
+  }
   const std::size_t tiles = std::size_t(tables.tiles);
-  tables.cone_stride = (tiles + 15) / 16 * 16;
   tables.directions = hwy::AllocateAligned<float>(tiles * 3 * kTileSize);
   tables.basis = hwy::AllocateAligned<float>(tiles * std::size_t(tables.coefficients) * kTileSize);
   tables.cones = hwy::AllocateAligned<float>(4 * tables.cone_stride);
@@ -105,12 +117,16 @@ DirectionTables makeDirectionTables(int order, int count, int bounce_count) {
   for (std::size_t t = 0; t < tiles; ++t) place[t] = placeOnSphere(set.cones[t].axis);
   std::vector<int> order_of_tracing(tiles);
   std::iota(order_of_tracing.begin(), order_of_tracing.end(), 0);
-  std::stable_sort(order_of_tracing.begin(), order_of_tracing.end(),
-                   [&](int a, int b) { return place[std::size_t(a)] < place[std::size_t(b)]; });
-  for (int t = 0; t < tables.tiles; ++t) {
-    const int source = order_of_tracing[std::size_t(t)];
-    fillTile(set, source, t, tables);
-    if (source < tables.bounce_tiles) tables.bounce_tile.push_back(t);
+  for (DirectionBatch& batch : tables.batches) {
+    batch.first_bounce = tables.bounce_tile.size();
+    std::stable_sort(order_of_tracing.begin() + batch.first, order_of_tracing.begin() + batch.end,
+                     [&](int a, int b) { return place[std::size_t(a)] < place[std::size_t(b)]; });
+    for (int t = batch.first; t < batch.end; ++t) {
+      const int source = order_of_tracing[std::size_t(t)];
+      fillTile(set, source, t, batch.first_cone + std::size_t(t - batch.first), tables);
+      if (source < tables.bounce_tiles) tables.bounce_tile.push_back(t);
+    }
+    batch.end_bounce = tables.bounce_tile.size();
   }
   return tables;
 }

@@ -4,6 +4,7 @@
 // Sloan, Kautz, Snyder 2002, section 5: shadow rays and the SH projection of what they find (PRT-1, PRT-3).
 #include "techniques/prt/prt_bake_kernels.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -177,28 +178,57 @@ void Accumulate(const TableView& tables, const std::int32_t* active, std::size_t
   for (; i < tables.coefficients; ++i) accumulate<1>(tables, active, active_count, weights, i, sums);
 }
 
-// sum: [color][sum_stride], zero before.
-void GatherHits(const float* transfer, std::size_t stride, const GatheredHit* hits, std::size_t hit_count,
-                float* sum, std::size_t sum_stride) {
+// One hit: the mean of three rows, in registers.
+struct Corners {
+  const float* row[3];
+  float share[3];
+};
+
+HWY_INLINE Corners cornersOf(const GatheredHit& hit, const float* rows, std::size_t stride) {
+  const float u = static_cast<float>(hit.share[0]) * (1.0f / kHitSteps),
+              v = static_cast<float>(hit.share[1]) * (1.0f / kHitSteps);
+  return {{rows + hit.point[0] * stride, rows + hit.point[1] * stride, rows + hit.point[2] * stride},
+          {1.0f - u - v, u, v}};
+}
+
+HWY_INLINE Vector mixAt(Floats d, const Corners& c, std::size_t at) {
+  Vector mix = hn::Mul(hn::Set(d, c.share[0]), hn::LoadU(d, c.row[0] + at));
+  mix = hn::MulAdd(hn::Set(d, c.share[1]), hn::LoadU(d, c.row[1] + at), mix);
+  return hn::MulAdd(hn::Set(d, c.share[2]), hn::LoadU(d, c.row[2] + at), mix);
+}
+
+// sum: [color][sum_stride], zero before, whole vectors. What lies beyond the coefficients is not read by the caller.
+void GatherHits(const GatherSources& sources, std::size_t coefficients, std::size_t stride,
+                const GatheredHit* hits, std::size_t hit_count, float* sum, std::size_t sum_stride) {
   const Floats d;
+  constexpr std::size_t kAhead = 4;
   for (std::size_t h = 0; h < hit_count; ++h) {
-    const GatheredHit& hit = hits[h];
-    const float* a = transfer + hit.point[0] * 3 * stride;
-    const float* b = transfer + hit.point[1] * 3 * stride;
-    const float* c = transfer + hit.point[2] * 3 * stride;
-    for (std::size_t color = 0; color < 3; ++color) {
-      const Vector wa = hn::Set(d, hit.weight[color] * hit.share[0]);
-      const Vector wb = hn::Set(d, hit.weight[color] * hit.share[1]);
-      const Vector wc = hn::Set(d, hit.weight[color] * hit.share[2]);
-      float* out = sum + color * sum_stride;
-      for (std::size_t i = 0; i < stride; i += hn::Lanes(d)) {
-        const std::size_t at = color * stride + i;
-        Vector s = hn::Load(d, out + i);
-        s = hn::MulAdd(wa, hn::LoadU(d, a + at), s);
-        s = hn::MulAdd(wb, hn::LoadU(d, b + at), s);
-        s = hn::MulAdd(wc, hn::LoadU(d, c + at), s);
-        hn::Store(s, d, out + i);
+    if (h + kAhead < hit_count) {
+      const GatheredHit& next = hits[h + kAhead];
+      const GatherSource& source = sources.by_mirrors[next.mirrors];
+      const std::size_t row = source.grey ? coefficients : 3 * stride;
+      if (source.rows != nullptr) {
+        for (std::size_t at = 0; at < row; at += 16) {
+          for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(source.rows + next.point[k] * row + at);
+        }
       }
+    }
+    const GatheredHit& hit = hits[h];
+    const GatherSource& source = sources.by_mirrors[hit.mirrors];
+    if (source.rows == nullptr) continue;
+    const Corners c = cornersOf(hit, source.rows, source.grey ? coefficients : 3 * stride);
+    const Vector red = hn::Set(d, static_cast<float>(hit.weight[0])),
+                 green = hn::Set(d, static_cast<float>(hit.weight[1])),
+                 blue = hn::Set(d, static_cast<float>(hit.weight[2]));
+    const std::size_t green_at = source.grey ? 0 : stride, blue_at = 2 * green_at;
+    for (std::size_t i = 0; i < coefficients; i += hn::Lanes(d)) {
+      float* r = sum + i;
+      float* g = r + sum_stride;
+      float* b = g + sum_stride;
+      const Vector mix = mixAt(d, c, i);
+      hn::Store(hn::MulAdd(red, mix, hn::Load(d, r)), d, r);
+      hn::Store(hn::MulAdd(green, source.grey ? mix : mixAt(d, c, green_at + i), hn::Load(d, g)), d, g);
+      hn::Store(hn::MulAdd(blue, source.grey ? mix : mixAt(d, c, blue_at + i), hn::Load(d, b)), d, b);
     }
   }
 }
@@ -220,51 +250,77 @@ HWY_EXPORT(Accumulate);
 HWY_EXPORT(GatherHits);
 HWY_EXPORT(KernelTarget);
 
-std::size_t traceBlocked(const trace::Tracer& tracer, const DirectionTables& tables, const glm::vec3& origin,
-                         const glm::vec3& normal, std::uint16_t* blocked) {
+std::size_t traceBlocked(const trace::Tracer& tracer, const DirectionTables& tables,
+                         const DirectionBatch& batch, const glm::vec3& origin, const glm::vec3& normal,
+                         std::uint16_t* blocked) {
   trace::RayPacket packet;
   packet.setOrigin(origin);
-  std::memset(blocked, 0, std::size_t(tables.tiles) * sizeof *blocked);
-  return HWY_DYNAMIC_DISPATCH(TraceBlocked)(tracer, tables.view(), &normal.x, packet, blocked);
+  blocked += batch.first;
+  std::memset(blocked, 0, std::size_t(batch.end - batch.first) * sizeof *blocked);
+  return HWY_DYNAMIC_DISPATCH(TraceBlocked)(tracer, tables.view(batch), &normal.x, packet, blocked);
 }
 
 int tilesAbove(const DirectionTables& tables, const glm::vec3& normal, std::int32_t* tiles,
                std::uint16_t* above) {
-  return int(HWY_DYNAMIC_DISPATCH(TilesAbove)(tables.view(), &normal.x, tiles, above));
+  return int(HWY_DYNAMIC_DISPATCH(TilesAbove)(tables.view(tables.batches[0]), &normal.x, tiles, above));
 }
 
-void projectBlocked(const DirectionTables& tables, const glm::vec3 normals[kProjectedTogether],
+void projectBlocked(const DirectionTables& tables, const DirectionBatch& batch,
+                    const glm::vec3 normals[kProjectedTogether],
                     const std::uint16_t* const blocked[kProjectedTogether],
                     float* const sums[kProjectedTogether]) {
   thread_local std::vector<std::int32_t> active;
   thread_local hwy::AlignedFreeUniquePtr<float[]> weights;
   thread_local std::size_t capacity = 0;
   constexpr std::size_t kStride = std::size_t(kProjectedTogether) * kTileSize;
+  const std::uint16_t* of_batch[kProjectedTogether];
+  for (std::size_t p = 0; p < kProjectedTogether; ++p) of_batch[p] = blocked[p] + batch.first;
   active.clear();
-  for (int t = 0; t < tables.tiles; ++t) {
-    if (blocked[0][t] | blocked[1][t] | blocked[2][t] | blocked[3][t]) active.push_back(t);
+  for (int t = 0; t < batch.end - batch.first; ++t) {
+    if (of_batch[0][t] | of_batch[1][t] | of_batch[2][t] | of_batch[3][t]) active.push_back(t);
   }
   if (capacity < active.size()) {
     capacity = std::size_t(tables.tiles);
     weights = hwy::AllocateAligned<float>(capacity * kStride);
     if (!weights) throw std::bad_alloc();
   }
+  const TableView view = tables.view(batch);
   for (std::size_t p = 0; p < kProjectedTogether; ++p) {
     HWY_DYNAMIC_DISPATCH(BlockedCosines)
-    (tables.view(), &normals[p].x, blocked[p], active.data(), active.size(), kStride,
-     weights.get() + p * kTileSize);
+    (view, &normals[p].x, of_batch[p], active.data(), active.size(), kStride, weights.get() + p * kTileSize);
   }
-  HWY_DYNAMIC_DISPATCH(Accumulate)(tables.view(), active.data(), active.size(), weights.get(), sums);
+  HWY_DYNAMIC_DISPATCH(Accumulate)(view, active.data(), active.size(), weights.get(), sums);
 }
 
-void gatherHits(const float* transfer, int coefficients, std::span<const GatheredHit> hits, float* row) {
+void packHits(const std::vector<RawHit>& raw, std::vector<GatheredHit>& hits, PointHits& point) {
+  float largest = 0.0f;
+  for (const RawHit& hit : raw)
+    largest = std::max(largest, std::max(hit.weight.x, std::max(hit.weight.y, hit.weight.z)));
+  point.scale = largest / kHitSteps;
+  const float steps = largest > 0.0f ? kHitSteps / largest : 0.0f;
+  const auto quantised = [](float x, float by) {
+    return std::uint16_t(std::clamp(x * by + 0.5f, 0.0f, kHitSteps));
+  };
+  for (const RawHit& hit : raw) {
+    hits.push_back(
+        {{hit.points.x, hit.points.y, hit.points.z},
+         {quantised(hit.share.y, kHitSteps), quantised(hit.share.z, kHitSteps)},
+         {quantised(hit.weight.x, steps), quantised(hit.weight.y, steps), quantised(hit.weight.z, steps)},
+         std::uint16_t(hit.mirrors)});
+  }
+  point.end = std::uint32_t(hits.size());
+}
+
+void gatherHits(const GatherSources& sources, int coefficients, std::span<const GatheredHit> hits,
+                float scale, float* row) {
   constexpr std::size_t kWidth = 48;  // 36 coefficients in whole vectors of up to 16
   alignas(64) float sum[3][kWidth] = {};
   const std::size_t stride = rowStride(coefficients);
-  HWY_DYNAMIC_DISPATCH(GatherHits)(transfer, stride, hits.data(), hits.size(), sum[0], kWidth);
+  HWY_DYNAMIC_DISPATCH(GatherHits)
+  (sources, std::size_t(coefficients), stride, hits.data(), hits.size(), sum[0], kWidth);
   for (std::size_t color = 0; color < 3; ++color) {
-    for (std::size_t i = 0; i < stride; ++i)
-      row[color * stride + i] = i < std::size_t(coefficients) ? sum[color][i] : 0.0f;
+    for (std::size_t i = 0; i < std::size_t(coefficients); ++i)
+      row[color * stride + i] += scale * sum[color][i];
   }
 }
 

@@ -17,17 +17,40 @@
 
 #include "math/sampling.h"
 #include "techniques/prt/prt_bake_kernels.h"
+#include "techniques/prt/prt_glossy_state.h"
 #include "trace/surface.h"
 
 namespace gloam::prt {
 namespace {
 
 constexpr float kPi = sampling::kPi;
+/// A standard error is not believed to have fallen to less than this part of what the half as many directions had: twice
+/// the directions bring it to 0.6 on average (an error of n^-3/4), and a lucky estimate would end a point too soon.
+constexpr float kSteepestFall = 0.45f;
+
+float normOfOpenPoint(int order) {
+  float sum = 0.0f;
+  const sh::Sh open = sh::rotateZonal(sh::clampedCosine(order), {0.0f, 0.0f, 1.0f});
+  for (int i = 0; i < open.size(); ++i) sum += open[i] * open[i];
+  return std::sqrt(sum);
+}
+
 }  // namespace
 
+/// What the points of a block have found so far; sums of coefficients, each direction counting 1.
+struct BakePasses::ShadowWork {
+  std::size_t begin, count;
+  std::vector<std::uint16_t> blocked;  ///< [point][tile]
+  float sums[kBlockSize][sh::kMaxCoefficients] = {};
+  std::vector<float> visibility;   ///< [point][GlossyTables::stride]
+  std::size_t active[kBlockSize];  ///< points of the block that take more directions
+  std::size_t active_count;
+};
+
 BakePasses::BakePasses(const Scene& scene, const PosedScene& posed, const BakePoints& points,
-                       const trace::Tracer& tracer, const DirectionTables& tables, const GlossyTables* glossy)
-    : scene_(scene), points_(points), tracer_(tracer), tables_(tables), glossy_(glossy) {
+                       const trace::Tracer& tracer, const DirectionTables& tables,
+                       const PassSettings& settings, const GlossyTables* glossy)
+    : scene_(scene), points_(points), tracer_(tracer), tables_(tables), settings_(settings), glossy_(glossy) {
   for (const Instance& instance : posed.instances) {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -37,8 +60,11 @@ BakePasses::BakePasses(const Scene& scene, const PosedScene& posed, const BakePo
     surface.lobes =
         brdf::makeLobes(material.base_color, material.metallic, material.roughness, material.specular);
     if (glossy_ != nullptr) surface.glossy = glossy_->instances[surfaces_.size()] != 0;
+    surface.mirrors = settings.caustics && greatestSpecular(scene, material) >= kShinySpecular;
     surfaces_.push_back(surface);
   }
+  most_mirrors_ = std::uint32_t(std::min(settings.bounces, kMostMirrors));
+  open_norm_ = normOfOpenPoint(tables.order);
   probes_ = sampling::fibonacciSphere(128);
   kept_hits_.resize((points.size() + kBlockSize - 1) / kBlockSize);
 }
@@ -49,123 +75,132 @@ bool BakePasses::isBack(int instance, int triangle, float along_normal) const {
   return along_normal * float(points_.facing[t]) > 0.0f;
 }
 
-// Projects what four neighbouring points of a block found.
-void BakePasses::projectPoints(std::size_t begin, std::size_t count, const std::uint16_t* blocked,
-                               float* sums) const {
+// Matrices are of vertices: where a surface has any, so is what it sends on.
+TexelCorners BakePasses::sendersAt(int instance, int triangle, float u, float v) const {
+  const std::size_t i = std::size_t(instance);
+  if (points_.hasTexels(i) && !surfaces_[i].glossy)
+    return texelsAt(points_.texel_maps[i], *surfaces_[i].mesh, triangle, u, v);
+  return {points_.triangles[points_.first_triangle[i] + std::size_t(triangle)], {1.0f - u - v, u, v}};
+}
+
+// Projects what up to four points of a block found in a batch: sums[k * kMaxCoefficients] of the k-th of them. The block's
+// bits begin with those of point `first`.
+void BakePasses::projectPoints(const DirectionBatch& batch, std::span<const std::size_t> points,
+                               std::size_t first, const std::uint16_t* blocked, float* sums) const {
   const std::size_t tiles = std::size_t(tables_.tiles);
   glm::vec3 normals[kProjectedTogether];
   const std::uint16_t* bits[kProjectedTogether];
   float unused[sh::kMaxCoefficients];
   float* out[kProjectedTogether];
   for (std::size_t k = 0; k < kProjectedTogether; ++k) {
-    const std::size_t i = std::min(k, count - 1);  // a block that ends early repeats its last point
-    normals[k] = points_.normals[begin + i];
-    bits[k] = blocked + i * tiles;
-    out[k] = k < count ? sums + k * sh::kMaxCoefficients : unused;
+    const std::size_t p = points[std::min(k, points.size() - 1)];  // fewer than four repeat the last
+    normals[k] = points_.normals[p];
+    bits[k] = blocked + (p - first) * tiles;
+    out[k] = k < points.size() ? sums + k * sh::kMaxCoefficients : unused;
   }
-  projectBlocked(tables_, normals, bits, out);
+  projectBlocked(tables_, batch, normals, bits, out);
 }
 
-std::size_t BakePasses::shadowBlock(std::size_t block, BakeState& state) const {
-  const std::size_t begin = state.blockBegin(block), count = state.blockEnd(block) - begin;
-  const std::size_t tiles = std::size_t(tables_.tiles), coefficients = std::size_t(tables_.coefficients);
-  std::vector<std::uint16_t> blocked(tiles * count);
+// One batch for all points of the block that are not known well enough. The first decides where a point looks from.
+std::size_t BakePasses::shadowBatch(const DirectionBatch& batch, BakeState& state, ShadowWork& work) const {
+  const std::size_t tiles = std::size_t(tables_.tiles);
+  const bool first_batch = batch.first == 0;
+  const float before = float(batch.first), here = float(batch.end - batch.first), all = float(batch.end);
+  std::size_t rays = 0, points[kBlockSize], still_active = 0;
   float sums[kBlockSize * sh::kMaxCoefficients];
-  std::size_t rays = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    RaySite& site = state.sites[begin + i];
-    site = {.origin = startAtVertex(begin + i)};
-    rays += traceBlocked(tracer_, tables_, site.origin, points_.normals[begin + i], &blocked[i * tiles]);
+  for (std::size_t a = 0; a < work.active_count; ++a) {
+    const std::size_t i = work.active[a];
+    points[a] = work.begin + i;
+    rays += traceBlocked(tracer_, tables_, batch, state.sites[points[a]].origin, points_.normals[points[a]],
+                         &work.blocked[i * tiles]);
   }
-  for (std::size_t i = 0; i < count; i += kProjectedTogether) {
-    projectPoints(begin + i, count - i, &blocked[i * tiles], &sums[i * sh::kMaxCoefficients]);
+  for (std::size_t a = 0; a < work.active_count; a += kProjectedTogether) {
+    const std::span<const std::size_t> together(
+        points + a, std::min<std::size_t>(kProjectedTogether, work.active_count - a));
+    projectPoints(batch, together, work.begin, work.blocked.data(), &sums[a * sh::kMaxCoefficients]);
   }
-  // y_0 is a constant: its coefficient holds the blocked cosine.
-  const float solid_angle = tables_.solidAngle(), cosine_from_y0 = solid_angle * std::sqrt(4.0f * kPi);
-  const sh::Zh cosine = sh::clampedCosine(tables_.order);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t point = begin + i;
-    float* sum = &sums[i * sh::kMaxCoefficients];
-    RaySite& site = state.sites[point];
-    site.blocked_cosine = cosine_from_y0 * sum[0];
-    rays += digOut(point, site, &blocked[i * tiles], sum);
-    site.blocked_cosine = cosine_from_y0 * sum[0];
-    if (state.glossy.has(point)) projectVisibility(point, &blocked[i * tiles], state);
-    const sh::Sh unshadowed = sh::rotateZonal(cosine, points_.normals[point]);
-    float* direct = &state.direct[point * coefficients];
-    for (std::size_t c = 0; c < coefficients; ++c) direct[c] = unshadowed[int(c)] - solid_angle * sum[c];
-    for (std::size_t t = 0; t < state.bounce_tiles; ++t) {
-      state.blocked[point * state.bounce_tiles + t] =
-          blocked[i * tiles + std::size_t(tables_.bounce_tile[t])];
+  for (std::size_t a = 0; a < work.active_count; ++a) {
+    const std::size_t i = work.active[a];
+    RaySite& site = state.sites[points[a]];
+    float* sum = &sums[a * sh::kMaxCoefficients];
+    if (first_batch) {
+      // y_0 is a constant: its coefficient holds the blocked cosine.
+      site.blocked_cosine = tables_.solidAngle(std::size_t(batch.end)) * std::sqrt(4.0f * kPi) * sum[0];
+      rays += digOut(points[a], site, work.begin, work.blocked.data(), sum);
     }
+    float error = 0.0f;
+    if (!first_batch) {
+      float squares = 0.0f;
+      for (int c = 0; c < tables_.coefficients; ++c) {
+        const float difference = sum[c] / here - work.sums[i][c] / before;
+        squares += difference * difference;
+      }
+      error = std::sqrt(squares) * 4.0f * kPi / float(kTileSize) / open_norm_;
+    }
+    for (int c = 0; c < tables_.coefficients; ++c) work.sums[i][c] += sum[c];
+    if (state.glossy.has(points[a])) {
+      error = std::max(error,
+                       addVisibility(batch, &work.blocked[i * tiles], &work.visibility[i * glossy_->stride]));
+    }
+    // Of two independent sets with a and b directions, both taken together.
+    error *= std::sqrt(before * here) / all;
+    if (!first_batch) site.error = std::max(error, kSteepestFall * site.error);
+    site.tiles = std::uint32_t(batch.end);
+    if (first_batch || site.error > settings_.error) work.active[still_active++] = i;
   }
+  work.active_count = still_active;
   return rays;
 }
 
-// Who is hit sends its transfer on from the side that its normals look at. A back blocks and sends nothing: the transfer
-// of a thin sheet's vertices says nothing of its other side.
-void BakePasses::addHits(const trace::RayPacket& rays, const trace::HitPacket& found, std::uint32_t lanes,
-                         const float* cosines, std::vector<GatheredHit>& hits) const {
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int k = std::countr_zero(lanes);
-    const int instance = found.instance[k], triangle = found.triangle[k];
-    if (instance == trace::kNoHit) continue;
-    const float along = rays.direction_x[k] * found.normal_x[k] + rays.direction_y[k] * found.normal_y[k] +
-                        rays.direction_z[k] * found.normal_z[k];
-    if (isBack(instance, triangle, along)) continue;
-    const Surface& surface = surfaces_[std::size_t(instance)];
-    const float u = found.u[k], v = found.v[k];
-    const glm::vec3 albedo =
-        surface.uniform ? surface.albedo : trace::diffuseAlbedo(scene_, *surface.mesh, {triangle, u, v});
-    const glm::vec3 weight = albedo * (cosines[k] / kPi);
-    const glm::uvec3& corner =
-        points_.triangles[points_.first_triangle[std::size_t(instance)] + std::size_t(triangle)];
-    hits.push_back({{corner.x, corner.y, corner.z}, {1.0f - u - v, u, v}, {weight.r, weight.g, weight.b}});
+void BakePasses::finishShadow(std::size_t point, const ShadowWork& work, std::size_t i,
+                              BakeState& state) const {
+  const std::size_t tiles = std::size_t(tables_.tiles), coefficients = std::size_t(tables_.coefficients);
+  RaySite& site = state.sites[point];
+  const float solid_angle = tables_.solidAngle(site.tiles);
+  site.blocked_cosine = solid_angle * std::sqrt(4.0f * kPi) * work.sums[i][0];
+  if (state.glossy.has(point)) writeVisibility(point, &work.visibility[i * glossy_->stride], state);
+  const sh::Sh unshadowed = sh::rotateZonal(sh::clampedCosine(tables_.order), points_.normals[point]);
+  float* direct = &state.direct[point * coefficients];
+  for (std::size_t c = 0; c < coefficients; ++c)
+    direct[c] = unshadowed[int(c)] - solid_angle * work.sums[i][c];
+  for (std::size_t t = 0; t < state.bounce_tiles; ++t) {
+    state.blocked[point * state.bounce_tiles + t] =
+        work.blocked[i * tiles + std::size_t(tables_.bounce_tile[t])];
   }
 }
 
-// Appends what the blocked directions of a point meet, weighted. Returns the number of rays.
-std::size_t BakePasses::traceHits(std::size_t point, const BakeState& state,
-                                  std::vector<GatheredHit>& hits) const {
-  const std::size_t first = hits.size();
-  const BounceSums sums = traceBounceRays(
-      point, state,
-      [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t, std::uint32_t lanes,
-          const float* cosines) { addHits(rays, found, lanes, cosines, hits); });
-  // The share of the hemisphere that these directions stand for is known better from the first pass.
-  const float solid_angle = tables_.bounceSolidAngle();
-  const float seen = float(sums.cosine) * solid_angle;
-  const float scale = seen > 0.0f ? std::clamp(state.sites[point].blocked_cosine / seen, 0.5f, 2.0f) : 1.0f;
-  for (std::size_t h = first; h < hits.size(); ++h) {
-    for (float& weight : hits[h].weight) weight *= scale * solid_angle;
+std::size_t BakePasses::shadowBlock(std::size_t block, BakeState& state) const {
+  ShadowWork work;
+  work.begin = state.blockBegin(block);
+  work.count = work.active_count = state.blockEnd(block) - work.begin;
+  work.blocked.resize(std::size_t(tables_.tiles) * work.count);
+  if (!state.glossy.empty()) work.visibility.resize(glossy_->stride * work.count);
+  for (std::size_t i = 0; i < work.count; ++i) {
+    work.active[i] = i;
+    state.sites[work.begin + i] = {.origin = startAtVertex(work.begin + i)};
   }
-  return sums.rays;
+  std::size_t rays = 0;
+  for (const DirectionBatch& batch : tables_.batches) {
+    if (work.active_count > 0) rays += shadowBatch(batch, state, work);
+  }
+  for (std::size_t i = 0; i < work.count; ++i) finishShadow(work.begin + i, work, i, state);
+  return rays;
 }
 
-// Every bounce has the same hits: they are kept for the next one, as many as memory is granted for.
-std::size_t BakePasses::bounceBlock(std::size_t block, BakeState& state) {
-  if (!state.glossy.empty()) return glossyBounceBlock(block, state);
-  const std::size_t begin = state.blockBegin(block), count = state.blockEnd(block) - begin;
-  KeptHits fresh;
-  const bool kept = kept_hits_[block].complete;
-  std::size_t ray_count = 0;
-  for (std::size_t i = 0; i < count && !kept; ++i) {
-    if (state.sites[begin + i].place != Place::kBuried) ray_count += traceHits(begin + i, state, fresh.hits);
-    fresh.end[i] = fresh.hits.size();
+// M^b has as many sources as there may be mirrors on the way: each is a bounce.
+GatherSources BakePasses::sourcesOf(const BakeState& state) const {
+  GatherSources sources;
+  for (int mirrors = 0; mirrors < std::min(state.pass, kMostMirrors + 1); ++mirrors) {
+    GatherSource& source = sources.by_mirrors[mirrors];
+    if (mirrors == state.pass - 1) {
+      source = {state.direct.data(), true};
+    } else if (mirrors == 0) {
+      source = {state.previous.data(), false};
+    } else if (std::size_t(mirrors) <= state.earlier.size()) {
+      source = {state.earlier[std::size_t(mirrors) - 1].data(), false};
+    }
   }
-  const KeptHits& use = kept ? kept_hits_[block] : fresh;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t first = i > 0 ? use.end[i - 1] : 0;
-    gatherHits(state.previous.data(), state.coefficients, {use.hits.data() + first, use.end[i] - first},
-               &state.next[(begin + i) * state.row]);
-  }
-  const std::size_t bytes = fresh.hits.size() * sizeof(GatheredHit);
-  if (!kept && state.pass < state.bounces && kept_bytes_.fetch_add(bytes) + bytes <= kKeptHitsBytes) {
-    fresh.hits.shrink_to_fit();
-    fresh.complete = true;
-    kept_hits_[block] = std::move(fresh);
-  }
-  return ray_count;
+  return sources;
 }
 
 }  // namespace gloam::prt

@@ -106,7 +106,7 @@ bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
   const glm::vec3& normal = points_.normals[point];
   const float reach = kCrampedReach * meshSpacing(points_, point);
   site.place = placeOf(site.origin, normal, reach);
-  if (site.place == Place::kOpen) return false;
+  if (site.place == Place::kOpen || points_.onFace(point)) return false;
   auto faces = points_.facesOf(point);
   faces = faces.first(std::min<std::size_t>(faces.size(), 8));
   const auto findAt = [&](float share) {
@@ -131,11 +131,14 @@ bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
 }
 
 // A point that is inside something, or in a nook too small for its mesh, gets another place to look from.
-std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::uint16_t* blocked, float* sums) const {
+std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::size_t first, std::uint16_t* blocked,
+                               float* sums) const {
   // Such points have much of the hemisphere blocked; the others are spared the question.
   if (site.blocked_cosine <= kBuriedBySheets * sampling::kPi || !findBetterPlace(point, site)) return 0;
-  const std::size_t rays = traceBlocked(tracer_, tables_, site.origin, points_.normals[point], blocked);
-  projectPoints(point, 1, blocked, sums);
+  const DirectionBatch& batch = tables_.batches[0];
+  const std::size_t rays = traceBlocked(tracer_, tables_, batch, site.origin, points_.normals[point],
+                                        blocked + (point - first) * std::size_t(tables_.tiles));
+  projectPoints(batch, {&point, 1}, first, blocked, sums);
   return rays;
 }
 
@@ -144,12 +147,16 @@ bool BakePasses::fillFromNeighbours(std::uint32_t point, const std::vector<std::
                                     const PointRows& rows) const {
   std::vector<double> sum(rows.size, 0.0);
   int neighbours = 0;
-  for (const std::uint32_t face : points_.facesOf(point)) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t q = points_.triangles[face][k];
-      if (!known[q] || q == point) continue;
-      ++neighbours;
-      for (std::size_t i = 0; i < rows.size; ++i) sum[i] += double(rows.of(q)[i]);
+  const auto add = [&](std::uint32_t q) {
+    if (!known[q] || q == point) return;
+    ++neighbours;
+    for (std::size_t i = 0; i < rows.size; ++i) sum[i] += double(rows.of(q)[i]);
+  };
+  if (points_.onFace(point)) {
+    forTexelsAround(points_, point, add);
+  } else {
+    for (const std::uint32_t face : points_.facesOf(point)) {
+      for (int k = 0; k < 3; ++k) add(points_.triangles[face][k]);
     }
   }
   for (std::size_t i = 0; i < rows.size && neighbours > 0; ++i)

@@ -35,7 +35,9 @@ struct RaySite {
   float blocked_cosine = 0.0f;  ///< integral of max(0, n.s) over blocked directions, 0 to pi
   Place place = Place::kOpen;
   float blocked_solid_angle =
-      0.0f;  ///< of directions above the horizon, 0 to 2 pi; kept where there are matrices
+      0.0f;                 ///< of directions above the horizon, 0 to 2 pi; kept where there are matrices
+  std::uint32_t tiles = 0;  ///< of directions that it took
+  float error = 0.0f;       ///< BakeOptions::error, as estimated
 };
 
 struct BakeState {
@@ -48,13 +50,17 @@ struct BakeState {
   int pass = 0;  ///< 0: shadow rays; b: bounce b; bounces + 1: done
   std::unique_ptr<std::atomic<std::uint8_t>[]> block_done;  ///< in this pass
 
-  std::vector<float> direct;   ///< [point][coefficient]: DS
+  std::vector<float> direct;   ///< [point][coefficient]: DS; kRowPadding floats behind
   std::vector<RaySite> sites;  ///< [point]
   std::vector<std::uint16_t>
       blocked;  ///< [point][bounce tile]: directions of bounce passes that meet something
   std::vector<float> previous, next;  ///< [point] rows: M^{b-1} and M^b
   std::vector<float> indirect;        ///< [point] rows: sum of finished M^b
-  GlossyState glossy;                 ///< matrices, of some of the points
+  /// Where light comes by way of mirrors: M^{b-2}, M^{b-3} ..., for as many mirrors as are followed; M^0 is `direct`.
+  std::vector<std::vector<float>> earlier;
+  /// [point]: bounce tiles that it uses, where each takes as many as it needs; found by the first bounce. Else empty.
+  std::vector<std::uint32_t> bounce_used;
+  GlossyState glossy;  ///< matrices, of some of the points
 
   std::size_t blocksDone() const;
   std::size_t blockBegin(std::size_t block) const { return block * kBlockSize; }
@@ -63,9 +69,10 @@ struct BakeState {
   void finishPass();
 };
 
-BakeState makeBakeState(std::size_t points, const DirectionTables& tables, int bounces);
+BakeState makeBakeState(std::size_t points, const DirectionTables& tables, int bounces, bool mirrors = false);
 /// What makeBakeState will take.
-std::size_t bakeStateBytes(std::size_t points, const DirectionTables& tables, int bounces);
+std::size_t bakeStateBytes(std::size_t points, const DirectionTables& tables, int bounces,
+                           bool mirrors = false);
 
 /// All of the scene and all options that change what a bake makes of it.
 Fingerprint fingerprintOf(const Scene& scene, const BakeOptions& options);

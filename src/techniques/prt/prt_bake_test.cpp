@@ -1,8 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Laws of baked transfer on scenes whose answer a person can derive (PRT-1, PRT-3). "Brightness" is what a vertex of albedo
-// 1 sends back under uniform light of radiance 1: M . (sqrt(4 pi), 0, 0 ...) / pi.
+// Laws of baked transfer on scenes whose answer a person can derive (PRT-1, PRT-3).
 #include <gloam/bake.h>
 #include <gloam/sh.h>
 #include <gtest/gtest.h>
@@ -11,27 +10,13 @@
 
 #include "math/sampling.h"
 #include "scene/transforms.h"
+#include "techniques/prt/prt_bake_measures.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
 
 namespace gloam::prt {
 namespace {
 
 constexpr float kPi = sampling::kPi;
-
-std::size_t coefficients(const Transfer& t) {
-  return std::size_t(t.order * t.order);
-}
-
-float directBrightness(const Mesh& mesh, std::size_t vertex) {
-  return mesh.transfer->direct[vertex * coefficients(*mesh.transfer)] * std::sqrt(4.0f * kPi) / kPi;
-}
-glm::vec3 indirectBrightness(const Mesh& mesh, std::size_t vertex) {
-  const float* m = &mesh.transfer->indirect[vertex * 3 * coefficients(*mesh.transfer)];
-  return glm::vec3(m[0], m[1], m[2]) * (std::sqrt(4.0f * kPi) / kPi);
-}
-float brightness(const Mesh& mesh, std::size_t vertex) {
-  return directBrightness(mesh, vertex) + indirectBrightness(mesh, vertex).g;
-}
 
 void expectCosineTransfer(const Mesh& mesh, std::size_t vertex, const glm::vec3& normal, float tolerance) {
   const Transfer& t = *mesh.transfer;
@@ -167,6 +152,55 @@ TEST(PrtBake, ThinGapsDoNotLeak) {
   scene.materials[0].double_sided = true;
   const Scene baked = bakeTransfer(scene, shadowed());
   for (std::size_t v = 0; v < 4; ++v) EXPECT_LT(directBrightness(baked.meshes[0], v), 0.001f);
+}
+
+// A room of six closed slabs that touch along their edges and nowhere overlap: no light comes in.
+TEST(PrtBake, TouchingBodiesLeakNothing) {
+  Scene scene = sceneOf(sphereMesh(8, 16));
+  for (glm::vec3& p : scene.meshes[0].positions) p *= 0.3f;
+  const float t = 0.05f;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 half(1.0f), middle(0.0f);
+      half[axis] = t;
+      for (int before = 0; before < axis; ++before) half[before] += 2.0f * t;
+      middle[axis] = side * (1.0f + t);
+      Mesh slab = boxMesh(half, false);
+      for (glm::vec3& p : slab.positions) p += middle;
+      addMesh(scene, slab);
+    }
+  }
+  const Scene baked = bakeTransfer(scene, interreflected(2, 3, 8192));
+  const std::vector<bool> used = usedVertices(scene.meshes[0]);
+  for (std::size_t v = 0; v < scene.meshes[0].vertexCount(); ++v) {
+    if (!used[v]) continue;
+    EXPECT_LT(directBrightness(baked.meshes[0], v), 1e-4f) << v;
+    EXPECT_LT(indirectBrightness(baked.meshes[0], v).g, 0.01f) << v;
+  }
+}
+
+// Three sheets on one edge, a face twice, one without area, one that lies upside down, vertices that nobody uses: transfer is
+// that of some surface, and finite.
+TEST(PrtBake, MeshesThatAreNoSurfaceGetAnAnswer) {
+  Mesh mesh = gridMesh(1.0f, 2);
+  const auto add = [&](const glm::vec3& p) {
+    mesh.positions.push_back(p);
+    mesh.normals.push_back({0, 1, 0});
+    return std::uint32_t(mesh.positions.size() - 1);
+  };
+  const std::uint32_t up = add({0, 1, 0}), lonely = add({3, 3, 3}), far = add({1e4f, 0, 0});
+  mesh.indices.insert(mesh.indices.end(), {4, 5, up});          // a third sheet on an inner edge
+  mesh.indices.insert(mesh.indices.end(), {0, 3, 4, 0, 4, 3});  // a face twice, and its other side
+  mesh.indices.insert(mesh.indices.end(), {4, 4, 5, 0, 4, 8});  // no area: a point twice, three in a line
+  mesh.indices.insert(mesh.indices.end(), {0, 1, far});         // a needle
+  const Scene baked = bakeTransfer(sceneOf(mesh), interreflected(3));
+  ASSERT_EQ(baked.meshes[0].vertexCount(), mesh.vertexCount());
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const float bright = brightness(baked.meshes[0], v);
+    EXPECT_TRUE(std::isfinite(bright) && bright > -0.01f && bright < 1.01f) << v << " " << bright;
+  }
+  for (const float value : baked.meshes[0].transfer->indirect) ASSERT_TRUE(std::isfinite(value));
+  EXPECT_EQ(brightness(baked.meshes[0], lonely), 0.0f);
 }
 
 TEST(PrtBake, WhatIsHiddenInsideDoesNotDarkenWhatIsSeen) {
@@ -330,7 +364,9 @@ TEST(PrtBake, TexturesBleed) {
     EXPECT_GT(p.x < 0.0f ? light.r : light.b, 1.2f * (p.x < 0.0f ? light.b : light.r)) << p.x << " " << p.z;
   }
   scene.materials[1].metallic = 1.0f;  // metal has no diffuse albedo
-  const Scene metal = bakeTransfer(scene, interreflected(1));
+  BakeOptions no_mirrors = interreflected(1);
+  no_mirrors.caustics = false;
+  const Scene metal = bakeTransfer(scene, no_mirrors);
   for (const float value : metal.meshes[0].transfer->indirect) EXPECT_EQ(value, 0.0f);
 }
 

@@ -28,6 +28,7 @@ BakeOptions glossy(BakeOptions options, int light_order = 0, int field_order = 0
   options.glossy = GlossyMeshes::kAll;
   options.glossy_light_order = light_order;
   options.glossy_order = field_order;
+  options.caustics = false;  // prt_mirror_bake_test.cpp
   return options;
 }
 

@@ -36,83 +36,119 @@ void lobeWeights(int order, float exponent, const glm::vec3& axis, float* weight
 
 }  // namespace
 
-void BakePasses::projectVisibility(std::size_t point, const std::uint16_t* blocked, BakeState& state) const {
-  const GlossyState& glossy = state.glossy;
-  const std::size_t count = glossy.layout.visibilityCount();
-  float sums[(sh::kMaxHighCoefficients + 15) / 16 * 16];
-  sumBlocked(glossy_->basis.get(), glossy_->tile_sums.get(), glossy_->stride, blocked,
-             std::size_t(tables_.tiles), sums);
-  float* visibility = &state.glossy.visibility[glossy.first_row[point] * count];
-  sh::hemisphereHigh(glossy.layout.visibilityOrder(), points_.normals[point], {visibility, count});
-  const float solid_angle = tables_.solidAngle();
-  for (std::size_t k = 0; k < count; ++k) visibility[k] -= solid_angle * sums[k];
-  state.sites[point].blocked_solid_angle = solid_angle * sums[0] * std::sqrt(4.0f * kPi);
+// Adds what a batch found blocked to the sums of all before it. Returns how much the two differ, of an open point's V.
+float BakePasses::addVisibility(const DirectionBatch& batch, const std::uint16_t* blocked,
+                                float* sums) const {
+  const std::size_t first = std::size_t(batch.first), tiles = std::size_t(batch.end) - first;
+  const std::size_t stride = glossy_->stride;
+  float here[(sh::kMaxHighCoefficients + 15) / 16 * 16];
+  sumBlocked(glossy_->basis.get() + first * kTileSize * stride, glossy_->tile_sums.get() + first * stride,
+             stride, blocked + first, tiles, here);
+  float squares = 0.0f;
+  const int shown = glossy_->field_order * glossy_->field_order;
+  for (int k = 0; k < shown && first > 0; ++k) {
+    const float difference = here[k] / float(tiles) - sums[k] / float(first);
+    squares += difference * difference;
+  }
+  for (std::size_t k = 0; k < stride; ++k) sums[k] += here[k];
+  return std::sqrt(squares / (2.0f * kPi)) * 4.0f * kPi / float(kTileSize);
 }
 
-void BakePasses::addGlossyHits(const trace::RayPacket& rays, const trace::HitPacket& found, std::size_t tile,
-                               std::uint32_t lanes, const float* cosines,
-                               std::vector<GlossyHit>& hits) const {
+void BakePasses::writeVisibility(std::size_t point, const float* sums, BakeState& state) const {
+  const GlossyState& glossy = state.glossy;
+  const std::size_t count = glossy.layout.visibilityCount();
+  float* visibility = &state.glossy.visibility[glossy.first_row[point] * count];
+  sh::hemisphereHigh(glossy.layout.visibilityOrder(), points_.normals[point], {visibility, count});
+  RaySite& site = state.sites[point];
+  const float solid_angle = tables_.solidAngle(site.tiles);
+  for (std::size_t k = 0; k < count; ++k) visibility[k] -= solid_angle * sums[k];
+  site.blocked_solid_angle = solid_angle * sums[0] * std::sqrt(4.0f * kPi);
+}
+
+GlossyHit BakePasses::glossyHit(const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) const {
+  const auto& [sender, share] = sendersAt(at.instance, at.triangle, at.u, at.v);
+  return {.point = {sender.x, sender.y, sender.z},
+          .share = {share.x, share.y, share.z},
+          .direction = came.primary,
+          .mirrors = came.mirrors,
+          .cosine = came.cosine,
+          .solid_angle = 1.0f,
+          .albedo = came.throughput * glm::clamp(diffuse, 0.0f, 1.0f) / kPi,
+          .specular = glm::vec3(0.0f),
+          .exponent = 1.0f,
+          .mirror = {}};
+}
+
+void BakePasses::addGlossyHits(std::size_t point, const trace::RayPacket& rays, const trace::HitPacket& found,
+                               std::size_t tile, std::uint32_t lanes, const float* cosines,
+                               std::vector<GlossyHit>& hits, std::vector<MirrorRay>& onward) const {
   for (; lanes != 0; lanes &= lanes - 1) {
     const int k = std::countr_zero(lanes);
     const int instance = found.instance[k], triangle = found.triangle[k];
     if (instance == trace::kNoHit) continue;
-    const glm::vec3 s(rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]);
-    const glm::vec3 geometric(found.normal_x[k], found.normal_y[k], found.normal_z[k]);
-    if (isBack(instance, triangle, glm::dot(s, geometric))) continue;
+    MirrorRay came{.ray = {.direction = {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]}},
+                   .cosine = cosines[k]};
+    came.primary = std::uint32_t(tile) * kTileSize + std::uint32_t(k);
+    const Meeting at{instance,
+                     triangle,
+                     found.u[k],
+                     found.v[k],
+                     {found.normal_x[k], found.normal_y[k], found.normal_z[k]}};
+    if (isBack(instance, triangle, glm::dot(came.ray.direction, at.geometric_normal))) continue;
     const Surface& surface = surfaces_[std::size_t(instance)];
-    const float u = found.u[k], v = found.v[k];
-    brdf::Lobes lobes = surface.lobes;
-    if (!surface.uniform) {
-      const trace::SurfacePoint at{triangle, u, v};
-      const trace::MaterialPoint material = trace::materialAt(scene_, *surface.mesh, at, at);
-      const float specular = scene_.materials[std::size_t(surface.mesh->material)].specular;
-      lobes = brdf::makeLobes(material.base_color, material.metallic, material.roughness, specular);
+    const brdf::Lobes lobes = lobesAt(surface, triangle, at.u, at.v);
+    GlossyHit hit = glossyHit(came, at, lobes.diffuse);
+    if (isFollowed(surface, lobes, 0)) {
+      reflect(point, came, at, lobes, onward);
+      if (hit.albedo != glm::vec3(0.0f)) hits.push_back(hit);
+      continue;
     }
-    const glm::uvec3& corner =
-        points_.triangles[points_.first_triangle[std::size_t(instance)] + std::size_t(triangle)];
-    GlossyHit hit{.point = {corner.x, corner.y, corner.z},
-                  .share = {1.0f - u - v, u, v},
-                  .direction = std::uint32_t(tile) * kTileSize + std::uint32_t(k),
-                  .cosine = cosines[k],
-                  .solid_angle = 1.0f,
-                  .albedo = glm::clamp(lobes.diffuse, 0.0f, 1.0f) / kPi,
-                  .specular = glm::vec3(0.0f),
-                  .exponent = glossy_->exponent > 0.0f ? glossy_->exponent : lobes.exponent,
-                  .mirror = {}};
-    if (surface.glossy) hit.specular = glm::clamp(lobes.specular, 0.0f, 1.0f);
-    const glm::vec3 sum = hit.share[0] * points_.normals[corner.x] +
-                          hit.share[1] * points_.normals[corner.y] + hit.share[2] * points_.normals[corner.z];
-    const float length = glm::length(sum);
-    const glm::vec3 shading = length > 1.0e-6f ? sum / length : points_.normals[corner.x];
-    hit.mirror = brdf::mirrorDirection(shading, -s);
+    if (surface.glossy) {
+      hit.specular = glm::clamp(lobes.specular, 0.0f, 1.0f);
+      hit.exponent = lobes.exponent;
+      hit.mirror = brdf::mirrorDirection(shadingNormal(at), -came.ray.direction);
+    }
     hits.push_back(hit);
   }
 }
 
-// As traceHits, with what both lobes need.
-std::size_t BakePasses::traceGlossyHits(std::size_t point, const BakeState& state,
-                                        std::vector<GlossyHit>& hits) const {
-  const std::size_t first = hits.size();
-  const BounceSums sums = traceBounceRays(
-      point, state,
-      [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t tile, std::uint32_t lanes,
-          const float* cosines) { addGlossyHits(rays, found, std::size_t(tile), lanes, cosines, hits); });
-  const float each = tables_.bounceSolidAngle();
+// As collectHits and packPoint, with what both lobes need.
+std::size_t BakePasses::traceGlossyHits(std::size_t point, const BakeState& state, KeptHits& hits) const {
+  const std::size_t first = hits.glossy_hits.size(), first_sky = hits.skies.size();
+  const std::size_t tiles = std::min<std::size_t>(state.bounce_tiles, state.sites[point].tiles);
+  thread_local std::vector<MirrorRay> onward;
+  BounceSums sums;
+  traceBounceRays(point, state, 0, tiles, sums,
+                  [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t tile,
+                      std::uint32_t lanes, const float* cosines) {
+                    addGlossyHits(point, rays, found, std::size_t(tile), lanes, cosines, hits.glossy_hits,
+                                  onward);
+                  });
+  sums.followed = followMirrors(
+      point, onward,
+      [&](const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) {
+        if (diffuse != glm::vec3(0.0f)) hits.glossy_hits.push_back(glossyHit(came, at, diffuse));
+      },
+      [&](const MirrorRay& came) { hits.skies.push_back(skyHit(came)); });
+  const float each = DirectionTables::solidAngle(tiles);
   const auto scaled = [&](float known, double seen) {
     return seen > 0.0 ? each * std::clamp(known / (each * float(seen)), 0.5f, 2.0f) : each;
   };
   const RaySite& site = state.sites[point];
   const float cosine_weight = scaled(site.blocked_cosine, sums.cosine);
   const float solid_angle = scaled(site.blocked_solid_angle, double(sums.rays));
-  for (std::size_t h = first; h < hits.size(); ++h) {
-    hits[h].cosine *= cosine_weight;
-    hits[h].solid_angle *= solid_angle;
-  }
-  return sums.rays;
+  const auto weigh = [&](auto& hit) {
+    hit.cosine *= cosine_weight;
+    hit.solid_angle *= solid_angle;
+  };
+  std::for_each(hits.glossy_hits.begin() + std::ptrdiff_t(first), hits.glossy_hits.end(), weigh);
+  std::for_each(hits.skies.begin() + std::ptrdiff_t(first_sky), hits.skies.end(), weigh);
+  return sums.rays + sums.followed;
 }
 
 // M^b of a point, matrix and vector, from M^{b-1} of what it hits.
-void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits, BakeState& state) const {
+void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits,
+                              std::span<const SkyHit> skies, BakeState& state) const {
   GlossyState& glossy = state.glossy;
   const GlossyLayout& layout = glossy.layout;
   const std::size_t vector_stride = rowStride(state.coefficients),
@@ -125,16 +161,22 @@ void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits
   float vector[3 * sh::kMaxCoefficients + kRowPadding] = {};
   if (has_matrix) matrix.assign(layout.matrixSize() + kRowPadding, 0.0f);
   constexpr float kOne[1] = {1.0f};
+  const GatherSources sources = sourcesOf(state);
   for (const GlossyHit& hit : hits) {
     LightRow light = {};
-    MatrixMix vectors{
-        .rows = 1, .columns = vector_count, .stride = vector_stride, .color_size = vector_stride};
+    const GatherSource& source = sources.by_mirrors[hit.mirrors];
+    if (source.rows == nullptr) continue;
+    const std::size_t row = source.grey ? vector_count : state.row;
+    MatrixMix vectors{.rows = 1,
+                      .columns = vector_count,
+                      .stride = vector_stride,
+                      .color_size = source.grey ? 0 : vector_stride};
     MatrixMix matrices{
         .rows = fields, .columns = lights, .stride = layout.columnStride(), .color_size = layout.colorSize()};
     const bool mirrors = hit.specular != glm::vec3(0.0f);
     for (std::size_t k = 0; k < 3; ++k) {
       vectors.share[k] = matrices.share[k] = hit.share[k];
-      vectors.matrix[k] = &state.previous[hit.point[k] * state.row];
+      vectors.matrix[k] = source.rows + hit.point[k] * row;
       if (mirrors)
         matrices.matrix[k] = &glossy.previous[glossy.first_row[hit.point[k]] * layout.matrixSize()];
     }
@@ -148,6 +190,17 @@ void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits
     if (has_matrix)
       addOuter(matrix_shape, glossy_->basisOf(hit.direction), hit.solid_angle, light, matrix.data());
   }
+  for (const SkyHit& sky : skies) {
+    if (int(sky.mirrors) != state.pass) continue;
+    LightRow light = {};
+    const sh::Sh y = sh::evaluate(tables_.order, sky.direction);
+    for (int color = 0; color < 3; ++color) {
+      for (int c = 0; c < y.size(); ++c) light.color[color][c] = sky.throughput[color] * y[c];
+    }
+    addOuter(vector_shape, kOne, sky.cosine, light, vector);
+    if (has_matrix)
+      addOuter(matrix_shape, glossy_->basisOf(sky.primary), sky.solid_angle, light, matrix.data());
+  }
   std::copy_n(vector, state.row, &state.next[point * state.row]);
   if (has_matrix)
     std::copy_n(matrix.data(), layout.matrixSize(),
@@ -160,21 +213,17 @@ std::size_t BakePasses::glossyBounceBlock(std::size_t block, BakeState& state) {
   const bool kept = kept_hits_[block].complete;
   std::size_t ray_count = 0;
   for (std::size_t i = 0; i < count && !kept; ++i) {
-    if (state.sites[begin + i].place != Place::kBuried)
-      ray_count += traceGlossyHits(begin + i, state, fresh.glossy_hits);
-    fresh.end[i] = fresh.glossy_hits.size();
+    if (state.sites[begin + i].place != Place::kBuried) ray_count += traceGlossyHits(begin + i, state, fresh);
+    fresh.points[i] = {.end = std::uint32_t(fresh.glossy_hits.size()),
+                       .sky_end = std::uint32_t(fresh.skies.size())};
   }
   const KeptHits& use = kept ? kept_hits_[block] : fresh;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t first = i > 0 ? use.end[i - 1] : 0;
-    gatherGlossy(begin + i, {use.glossy_hits.data() + first, use.end[i] - first}, state);
+    const std::size_t first = use.begin(i);
+    gatherGlossy(begin + i, {use.glossy_hits.data() + first, use.points[i].end - first}, use.skiesOf(i),
+                 state);
   }
-  const std::size_t bytes = fresh.glossy_hits.size() * sizeof(GlossyHit);
-  if (!kept && state.pass < state.bounces && kept_bytes_.fetch_add(bytes) + bytes <= kKeptHitsBytes) {
-    fresh.glossy_hits.shrink_to_fit();
-    fresh.complete = true;
-    kept_hits_[block] = std::move(fresh);
-  }
+  if (!kept) keep(block, state, fresh);
   return ray_count;
 }
 

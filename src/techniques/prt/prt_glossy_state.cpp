@@ -17,8 +17,6 @@
 namespace gloam::prt {
 namespace {
 
-/// From what share of mirrored light on a mesh gets matrices of its own accord.
-constexpr float kShinySpecular = 0.1f;
 constexpr std::size_t kMaxPacked = sh::kMaxCoefficients * (sh::kMaxCoefficients + 1) / 2;
 
 int bandOf(int i) {
@@ -120,7 +118,7 @@ void GlossyState::finishPass(int pass) {
 }
 
 GlossyTables::GlossyTables(const GlossyLayout& layout, const DirectionTables& tables)
-    : stride((layout.visibilityCount() + 15) / 16 * 16) {
+    : stride((layout.visibilityCount() + 15) / 16 * 16), field_order(layout.field_order) {
   const std::size_t tiles = std::size_t(tables.tiles), count = layout.visibilityCount();
   basis = hwy::AllocateAligned<float>(tiles * kTileSize * stride);
   tile_sums = hwy::AllocateAligned<float>(tiles * stride);

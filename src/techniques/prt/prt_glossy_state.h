@@ -46,6 +46,9 @@ struct GlossyState {
 /// The exponent with which so many bands show a lobe: at most kSharpestLobe (prt_shared.h).
 float shownExponent(int field_order, float exponent);
 
+/// From what share of mirrored light on a mesh gets matrices of its own accord, and is followed as a mirror.
+inline constexpr float kShinySpecular = 0.1f;
+
 /// By instance, whether its mesh gets matrices.
 std::vector<std::uint8_t> glossyInstances(const Scene& scene, const PosedScene& posed, GlossyMeshes which);
 /// The greatest share of light that a material mirrors anywhere (k_s), by its factors and maps.
@@ -64,6 +67,7 @@ struct GlossyTables {
   GlossyTables(const GlossyLayout& layout, const DirectionTables& tables);
   /// Coefficients rounded up to 16.
   std::size_t stride = 0;
+  int field_order = 0;
   hwy::AlignedFreeUniquePtr<float[]> basis,
       tile_sums;                        ///< [tile * 16 + lane][coefficient], [tile][coefficient]
   std::vector<std::uint8_t> instances;  ///< glossyInstances
