@@ -91,6 +91,10 @@ Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment&
   return light;
 }
 
+Coverage coverageOf(const Contender& contender) {
+  return coverageWith(*contender.technique, contender.settings);
+}
+
 bool anyDirect(const Coverage& coverage) {
   return std::ranges::any_of(kCoverageMembers,
                              [&](const CoverageMember& m) { return m.direct && coverage.*m.member; });
@@ -102,7 +106,7 @@ bool anyIndirect(const Coverage& coverage) {
 }
 
 bool lights(const Contender& contender, const Coverage& in_scene) {
-  return both(contender.technique->covers, in_scene) != Coverage{};
+  return both(coverageOf(contender), in_scene) != Coverage{};
 }
 
 void requireLight(const Contender& contender, const Coverage& in_scene) {
@@ -110,7 +114,7 @@ void requireLight(const Contender& contender, const Coverage& in_scene) {
   const std::vector<std::string> there = coverageNames(in_scene);
   throw Error("--techniques",
               fmt::format("{} cannot light this scene: it covers {}; the scene has {}",
-                          contender.technique->name, listed(coverageNames(contender.technique->covers)),
+                          contender.technique->name, listed(coverageNames(coverageOf(contender))),
                           there.empty() ? "no light" : fmt::format("{} alone", listed(there))));
 }
 

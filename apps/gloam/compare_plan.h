@@ -31,6 +31,8 @@ std::vector<Contender> allContenders(const TechniqueChoice& common);
 /// The light that a scene has at all. Without bounces nothing is indirect.
 Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces);
 
+/// The light that it computes with its options.
+Coverage coverageOf(const Contender& contender);
 bool anyDirect(const Coverage& coverage);
 bool anyIndirect(const Coverage& coverage);
 

@@ -63,7 +63,9 @@ struct Comparison {
 };
 
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
-  return work.folder.file(fmt::format("reference_{}.exr", contender.technique->name));
+  const bool as_usual = coverageOf(contender) == contender.technique->covers;
+  return work.folder.file(
+      fmt::format("reference_{}.exr", as_usual ? contender.technique->name : contender.stem));
 }
 
 void haveSpheres(Comparison& work, Console& console) {
@@ -101,8 +103,8 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
     } else if (contender.technique->needs_spheres) {
       result.bake_note = "spheres are fitted beforehand, once a model";
     }
-    result.covers = both(contender.technique->covers, work.stage.in_scene);
-    result.missing = without(work.stage.in_scene, contender.technique->covers);
+    result.covers = both(coverageOf(contender), work.stage.in_scene);
+    result.missing = without(work.stage.in_scene, coverageOf(contender));
     work.results.device = drawn.device;
     work.results.techniques.push_back(std::move(result));
   }
@@ -256,8 +258,7 @@ void checkGivenReference(Comparison& work, bool order_given, Console& console) {
                                work.choice.reference, given.environment_order));
   }
   for (const Contender& contender : work.contenders) {
-    imageOf(work.reference.layers, both(contender.technique->covers, work.stage.in_scene),
-            work.choice.reference);
+    imageOf(work.reference.layers, both(coverageOf(contender), work.stage.in_scene), work.choice.reference);
   }
 }
 

@@ -59,7 +59,10 @@ struct TechniqueInfo {
   std::span<const Option> options;
   bool needs_bake = false;     ///< renders only scenes whose meshes carry Transfer
   bool needs_spheres = false;  ///< renders only with Renderer::setSpheres; its option "spheres" says how many
+  Coverage (*covers_with)(const Settings&) = nullptr;  ///< where options change `covers`, which holds by default
 };
+/// The light that a technique computes with these options of its own.
+Coverage coverageWith(const TechniqueInfo& info, const Settings& settings);
 /// The one table of techniques.
 std::span<const TechniqueInfo> techniques();
 /// Throws Error that lists the names.

@@ -3,6 +3,7 @@
 #include "frame/environment_light.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "gpu/format.h"
@@ -78,6 +79,8 @@ gpu::Image glossTable(gpu::Device& device, const sh::ShRgb& light) {
 
 EnvironmentLight::EnvironmentLight(gpu::Device& device, const Environment& environment)
     : sh_(projectEnvironment(environment, sh::kMaxOrder)) {
+  static std::atomic<std::uint64_t> last_revision{0};
+  revision_ = ++last_revision;
   gloss_ = glossTable(device, environment.empty() ? sh_ : lightForGloss(sh_));
   row_.cos_rotation = std::cos(environment.rotation_rad);
   row_.sin_rotation = std::sin(environment.rotation_rad);

@@ -24,6 +24,8 @@ class EnvironmentLight {
   /// Throws Error where the map is larger than an image of this device may be.
   EnvironmentLight(gpu::Device& device, const Environment& environment);
 
+  /// Another number for every light that is made, of any device.
+  std::uint64_t revision() const { return revision_; }
   bool empty() const { return row_.map_width == 0.0f; }
   /// Radiance, order 6, as projected: rotation and intensity are applied, no window.
   const sh::ShRgb& sh() const { return sh_; }
@@ -35,6 +37,7 @@ class EnvironmentLight {
   const gpu::Image& gloss() const { return gloss_; }
 
  private:
+  std::uint64_t revision_ = 0;
   sh::ShRgb sh_;
   EnvironmentRow row_{};
   gpu::Image map_, gloss_;

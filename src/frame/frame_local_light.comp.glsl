@@ -9,10 +9,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
+#include "frame/lamp.glsl"
 #include "frame/shadow.glsl"
 #include "frame/view.glsl"
 #include "math/brdf.glsl"
-#include "math/punctual.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -25,20 +25,6 @@ layout(set = 0, binding = 6) uniform sampler2D diffuse;
 layout(set = 0, binding = 7) uniform sampler2D specular;
 layout(set = 0, binding = 8, rgba32f) uniform image2D local_light;
 layout(constant_id = 0) const bool first = true;  // nothing to add to yet
-
-/// Irradiance on a plane that faces the lamp, and the direction to it.
-vec3 lampIrradiance(vec3 position, out vec3 to_light) {
-  to_light = -light.row.direction;
-  if (light.row.kind == kLightDirectional) return light.row.intensity;
-  vec3 between = light.row.position - position;
-  float squared = max(dot(between, between), kLeastSquaredDistance);
-  float distance = sqrt(squared);
-  to_light = between / distance;
-  float factor = rangeFactor(distance, light.row.range) / squared;
-  if (light.row.kind == kLightSpot)
-    factor *= coneFactor(-dot(to_light, light.row.direction), light.row.cos_inner, light.row.cos_outer);
-  return light.row.intensity * factor;
-}
 
 float lampShadow(vec3 position, vec3 geometric_normal) {
   if (light.row.map_count == 0u) return 1.0;
@@ -57,7 +43,7 @@ void main() {
     uvec2 packed_normals = texelFetch(normals, pixel, 0).xy;
     vec3 geometric = geometricNormal(packed_normals);
     vec3 to_light;
-    vec3 irradiance = lampIrradiance(position, to_light);
+    vec3 irradiance = lampIrradiance(light.row, position, to_light);
     if (dot(geometric, to_light) > 0.0) {
       vec4 kd = texelFetch(diffuse, pixel, 0);
       Lobes lobes = Lobes(kd.rgb, texelFetch(specular, pixel, 0).rgb, phongExponent(kd.a));

@@ -13,6 +13,21 @@ constexpr std::array<const char*, kTextureSlots> kMapNames = {"base_color_map", 
 
 }  // namespace
 
+void drawSurface(gpu::RasterPass& pass, const GpuScene& scene, std::uint32_t mesh_index,
+                 std::uint32_t first_place, std::uint32_t count) {
+  const GpuMesh& mesh = scene.meshes()[mesh_index];
+  auto& draw = pass.draw()
+                   .specialize("textured", mesh.textured)
+                   .specialize("alpha_mask", mesh.alpha_mask)
+                   .specialize("vertex_colors", mesh.vertex_colors)
+                   .read("material", scene.material(mesh.row.material));
+  for (int slot = 0; slot < kTextureSlots; ++slot) {
+    const Textures::Bound map = scene.textures().map(static_cast<int>(mesh.row.material), slot);
+    draw.sample(kMapNames[std::size_t(slot)], *map.image, map.sampler);
+  }
+  draw.indexed(scene.indices(), mesh.index_count, count, mesh.row.first_index, 0, first_place);
+}
+
 GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::BufferRef view, int width,
                       int height, int supersample) {
   GBuffer gbuffer{.width = width * supersample, .height = height * supersample, .supersample = supersample};
@@ -39,19 +54,8 @@ GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::Buffer
                    .color("emission", gbuffer.emission, black)
                    .read("frame_view", view);
   scene.bindSurface(scene.bindPlaces(pass));
-  for (const DrawRange& range : scene.draws()) {
-    const GpuMesh& mesh = scene.meshes()[range.mesh];
-    auto& draw = pass.draw()
-                     .specialize("textured", mesh.textured)
-                     .specialize("alpha_mask", mesh.alpha_mask)
-                     .specialize("vertex_colors", mesh.vertex_colors)
-                     .read("material", scene.material(mesh.row.material));
-    for (int slot = 0; slot < kTextureSlots; ++slot) {
-      const Textures::Bound map = scene.textures().map(static_cast<int>(mesh.row.material), slot);
-      draw.sample(kMapNames[std::size_t(slot)], *map.image, map.sampler);
-    }
-    draw.indexed(scene.indices(), mesh.index_count, range.count, mesh.row.first_index, 0, range.first_place);
-  }
+  for (const DrawRange& range : scene.draws())
+    drawSurface(pass, scene, range.mesh, range.first_place, range.count);
   return gbuffer;
 }
 

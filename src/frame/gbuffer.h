@@ -29,6 +29,10 @@ inline constexpr int kGBufferBytes = 4 + 8 + 8 + 8 + 8 + 8;
 GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::BufferRef view, int width,
                       int height, int supersample);
 
+/// Draws instances at places first_place … of the order of drawing, in a pass of the G-buffer's shaders.
+void drawSurface(gpu::RasterPass& pass, const GpuScene& scene, std::uint32_t mesh, std::uint32_t first_place,
+                 std::uint32_t count);
+
 /// Adds "frame.motion": how far each pixel's surface point has moved since the last pose and camera, in
 /// pixels, in RG of a half-float image (0 for background, which moves with the camera alone and is left out).
 gpu::ImageRef recordMotion(gpu::FrameGraph& graph, const GpuScene& scene, const GBuffer& gbuffer,

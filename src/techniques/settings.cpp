@@ -63,6 +63,10 @@ std::string textOf(const OptionValue& value) {
 
 }  // namespace
 
+Coverage coverageWith(const TechniqueInfo& info, const Settings& settings) {
+  return info.covers_with ? info.covers_with(settings) : info.covers;
+}
+
 void Settings::set(const std::string& name, const std::string& text) {
   const auto option =
       std::find_if(options_.begin(), options_.end(), [&](const Option& o) { return name == o.name; });
