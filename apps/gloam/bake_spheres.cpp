@@ -63,7 +63,7 @@ void printResult(const SpheresChoice& choice, const SceneSpheres& spheres, doubl
     for (const SphereSet& set : spheres.sets) sets.push_back(setJson(set));
     console.print(jsonText({{"scene", choice.scene.name},
                             {"output", choice.output},
-                            {"count", choice.options.count},
+                            {"count", choice.options.count > 0 ? Json(choice.options.count) : Json()},
                             {"spheres", spheres.count()},
                             {"seconds", seconds},
                             {"objects", sets},
@@ -105,8 +105,8 @@ std::function<int()> declareBakeSpheres(CLI::App& app, Console& console) {
   addOutput(app, choice->output, "FILE", "a .json; by default the scene's name and .spheres.json");
   SphereOptions& options = choice->options;
   addInteger(app, "-k,--count", options.count, {1, 4096}, "N",
-             "spheres of the whole scene; at least one each object that casts")
-      ->default_str(std::to_string(options.count))
+             "spheres of the whole scene; at least one each object that casts (default: by size and shape, "
+             "26 to 128)")
       ->group("Search");
   addNumber(app, "--effort", options.effort, {0.01, 100.0}, "FACTOR",
             "moves of the search, relative to the default")

@@ -1,14 +1,17 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// gloam scene: writes a scene that is made by code, or any that can be read, as .glb.
+// gloam scene: writes a scene that is made by code, or any that can be read, as .glb; with spheres in place of its models where
+// that is asked for.
 #include <fmt/core.h>
 #include <gloam/scene.h>
 #include <image/atomic_file.h>
+#include <renderer/spheres_scene.h>
 
 #include "json.h"
 #include "output.h"
 #include "scene_inputs.h"
+#include "spheres_run.h"
 #include "verb.h"
 
 namespace gloam::cli {
@@ -17,6 +20,9 @@ namespace {
 struct WriteChoice {
   SceneChoice scene;
   std::string output;
+  bool as_spheres = false;
+  int spheres = 0;  ///< 0: by size and shape
+  float time_s = 0.0f;
 };
 
 int runScene(WriteChoice choice, Console& console) {
@@ -30,7 +36,11 @@ int runScene(WriteChoice choice, Console& console) {
   }
   refuseOverwriting(choice.output, choice.scene.name);
   AtomicFile{choice.output};  // throws now where the file cannot be written
-  const Scene scene = loadSceneToDraw(choice.scene, console);
+  Scene scene = loadSceneToDraw(choice.scene, console);
+  if (choice.as_spheres) {
+    const SceneSpheres spheres = spheresForDrawing(scene, choice.scene.name, true, console, choice.spheres);
+    scene = spheresInPlace(scene, spheres, pose(scene, choice.time_s));
+  }
   writeGlb(scene, choice.output);
   remarkLostLight(scene, console);
   std::size_t triangles = 0;
@@ -48,6 +58,17 @@ std::function<int()> declareScene(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<WriteChoice>();
   addSceneOptions(app, choice->scene);
   addOutput(app, choice->output, "FILE", "a .glb; by default the scene's name");
+  const auto setSpheres = [choice](const std::string& text) {
+    choice->as_spheres = true;
+    if (text != "auto") choice->spheres = parseInteger("--as-spheres", text, {1, 4096});
+  };
+  app.add_option_function<std::string>(
+         "--as-spheres", setSpheres,
+         "in place of everything that casts its spheres as techniques take them, that many or "
+         "auto: what is left of a model when it is traced")
+      ->type_name("N|auto");
+  addNumber(app, "--time", choice->time_s, {0.0, 1e6}, "SECONDS", "instant at which those stand")
+      ->default_str("0");
   addConsoleOptions(app, console, true);
   return [choice, &console] { return runScene(*choice, console); };
 }
@@ -58,7 +79,8 @@ extern const Verb kSceneVerb;
 const Verb kSceneVerb = {
     "scene", "writes a built-in scene, or a model of another format, as .glb",
     "gloam scene cornell -o cornell.glb | a scene made by code; `gloam list --scenes` names them\n"
-    "gloam scene bunny.obj --ground -o bunny.glb | another format, with a floor\n",
+    "gloam scene bunny.obj --ground -o bunny.glb | another format, with a floor\n"
+    "gloam scene walker --as-spheres 26 -o spheres.glb | what proxies take it for, to be path traced\n",
     declareScene};
 
 }  // namespace gloam::cli

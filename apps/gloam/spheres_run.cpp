@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSearchVersion = 2;  // to be raised when the same options give other spheres
+constexpr int kSearchVersion = 4;  // to be raised when the same options give other spheres
 
 /// Changes with anything in the scene but its environment, with every option that changes the result, and with the version.
 std::string keyOf(const Scene& scene, const SphereOptions& options) {
@@ -50,7 +50,8 @@ SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, boo
       return *std::move(kept);
     }
   }
-  console.remark(fmt::format("{}: fitting {} spheres first", place, options.count));
+  console.remark(options.count > 0 ? fmt::format("{}: fitting {} spheres first", place, options.count)
+                                   : fmt::format("{}: fitting spheres first", place));
   console.release();
   SceneSpheres spheres = bakeSpheres(scene, options, console.progress());
   console.endProgress();

@@ -53,7 +53,7 @@ struct SphereSet {
 };
 
 struct SphereOptions {
-  int count = 26;          ///< spheres of the whole scene, 1 to 4096; at least one each object that casts
+  int count = 0;           ///< spheres of the whole scene, to 4096; at least one each object that casts. 0: by size and shape
   std::uint32_t seed = 1;  ///< of the search
   int samples = 4000;      ///< points of a surface that lead the search, 500 to 50000
   float effort = 1.0f;     ///< moves of the search, relative to the default, 0.01 to 100
@@ -67,7 +67,8 @@ struct SceneSpheres {
 };
 
 /// Fits a set to every object of the scene that casts. The number of spheres is spread so that the outside volume of all
-/// together is least by the estimate V_1 k^(-2/3), V_1 that of one bounding sphere. Flat things (ground, walls), things
+/// together is least, by quick fits of 1, 2, 4 … spheres to each; where it is not given, each gets as many as keep that volume
+/// below three times its own, 26 to 128 together. Flat things (ground, walls), things
 /// without area, and rooms (another object or the camera stands within) only receive. Meshes that are not closed are taken
 /// by generalised winding number, sheets that enclose nothing as thick as a grid's cell; inside-out ones are turned. All
 /// that is said in `warnings`. Throws Error for options out of range and a scene without triangles, Interrupted when asked

@@ -1,12 +1,14 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// PX-9: every proxy has the albedo of the surface that it stands for, the mean over points spread evenly by area.
+// PX-9: every proxy has the albedo of the surface that it stands for, the mean over points spread evenly by area, and is drawn in
+// until it shadows as much as that does.
 #include "renderer/proxy_set.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/shadow_radii.h"
 #include "trace/surface.h"
 
 namespace gloam {
@@ -104,14 +106,15 @@ ProxySet::ProxySet(const Scene& scene, const SceneSpheres& spheres)
         throw Error("sphere sets", "belong to another scene");
     }
     albedos_.push_back(sphereAlbedos(scene, set));
+    shares_.push_back(shadowShares(scene, set));
   }
 }
 
 std::vector<frame::Proxy> ProxySet::posed(const PosedScene& posed) const {
   std::vector<frame::Proxy> proxies;
   for (const PosedSphere& sphere : poseSpheres(spheres_, scene_, posed)) {
-    proxies.push_back(
-        {sphere.center, sphere.radius, albedos_[std::size_t(sphere.set)][std::size_t(sphere.sphere)]});
+    const auto set = std::size_t(sphere.set), i = std::size_t(sphere.sphere);
+    proxies.push_back({sphere.center, sphere.radius * shares_[set][i], albedos_[set][i]});
   }
   return proxies;
 }

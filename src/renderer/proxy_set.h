@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Sphere sets as a frame takes them: where they are now and what colour they send back (PX-9).
+// Sphere sets as a frame takes them: where they are now, drawn in to shadow as much as the model (shadow_radii.h), and what colour
+// they send back (PX-9).
 #pragma once
 
 #include <gloam/spheres.h>
@@ -21,6 +22,7 @@ class ProxySet {
   SceneSpheres spheres_;
   Scene scene_;                                  // nodes, and places of the vertices that spheres follow
   std::vector<std::vector<glm::vec3>> albedos_;  // [set][sphere]
+  std::vector<std::vector<float>> shares_;       // of radii; the same
 };
 
 /// Mean diffuse albedo of the surface near each sphere of a set (nearest by |p - c| / r), textures and vertex colours

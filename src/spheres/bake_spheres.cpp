@@ -24,7 +24,7 @@ void checkOptions(const SphereOptions& options) {
       throw Error(std::string("spheres: ") + name, fmt::format("{}: expected {} to {}", value, least, most));
     }
   };
-  check("count", options.count, 1, 4096);
+  check("count", options.count, 0, 4096);
   check("samples", options.samples, 500, 50000);
   check("effort", double(options.effort), double(0.01f), 100);
   check("threads", options.threads, 0, 1024);

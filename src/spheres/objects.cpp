@@ -3,6 +3,7 @@
 #include "spheres/objects.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,12 @@
 namespace gloam::spheres {
 namespace {
 
-constexpr float kRound = 0.02f;        // a bounding sphere that holds no more air than this share: a ball
-constexpr float kEvenStretch = 0.98f;  // least over greatest stretch that still counts as even
+constexpr float kRound = 0.02f;  // a bounding sphere that holds no more air than this share: a ball
+constexpr int kCurvePoints = 2000, kCurveEnd = 64;
+constexpr float kLooseEnough =
+    3.0f;  // air over volume: drawn in (renderer/shadow_radii), such spheres still look alike
+constexpr long kFewest = 26, kMost = 128;  // spheres of a scene, where their number is not given
+constexpr float kEvenStretch = 0.98f;      // least over greatest stretch that still counts as even
 
 std::string nameOf(const Scene& scene, const Node& node, std::size_t index) {
   if (!node.name.empty()) return node.name;
@@ -83,12 +88,36 @@ void place(Object& object, const Instance& instance) {
   object.world_scale3 = std::abs(glm::determinant(glm::mat3(unit)));
 }
 
-float boundingOutside(const Object& object) {
+/// What 1, 2, 4 … spheres would hold of air: quick fits, clusters without a search, about a third more than a search leaves.
+/// Each doubling takes off a fifth at least and three quarters at most, so that chance does not rule.
+std::vector<float> outsideOf(const Object& object) {
   FitPoints points;
-  for (const glm::vec3& p : sampleSurface(object.solid.soup, 500, 1)) points.add(p);
-  Fit fit(*object.solid.coarse, points, 1, 0);
-  fit.startFromClusters(1);
-  return float(fit.cost()) * object.world_scale3;
+  for (const glm::vec3& p : sampleSurface(object.solid.soup, kCurvePoints, 1)) points.add(p);
+  std::vector<float> outside;
+  for (int k = 1; k <= kCurveEnd; k *= 2) {
+    Fit fit(*object.solid.coarse, points, 1, 0);
+    fit.startFromClusters(k);
+    const float found = float(fit.cost()) * object.world_scale3;
+    outside.push_back(k == 1 ? found : std::clamp(found, 0.25f * outside.back(), 0.8f * outside.back()));
+  }
+  return outside;
+}
+
+/// The same for any number, by powers of k between and beyond.
+float outsideAt(const Object& object, int k) {
+  const std::vector<float>& outside = object.outside;
+  const float place = std::log2(float(k));
+  const auto below = std::min(std::size_t(place), outside.size() - 2);
+  if (!(outside[below] > 0.0f)) return 0.0f;
+  return outside[below] * std::pow(outside[below + 1] / outside[below], place - float(below));
+}
+
+/// Spheres with which an object holds no more air than kLooseEnough times its volume.
+int neededCount(const Object& object) {
+  const float volume = object.solid.volume * object.world_scale3;
+  int k = 1;
+  while (k < kCurveEnd && outsideAt(object, k) > kLooseEnough * volume) ++k;
+  return k;
 }
 
 }  // namespace
@@ -151,27 +180,36 @@ std::vector<Object> listObjects(const Scene& scene, const PosedScene& posed, con
 }
 
 void spreadCount(std::vector<Object>& objects, int count) {
-  long left = count;
+  std::vector<Object*> casters;
   for (Object& object : objects) {
-    if (!object.casts()) continue;
-    object.count = 1;
-    object.bounding_outside = boundingOutside(object);
-    left -= long(object.places);
+    if (object.casts()) casters.push_back(&object);
   }
-  // What one more sphere takes off V_1 k^(-2/3); large pieces first, as long as one fits.
+  tbb::parallel_for(std::size_t(0), casters.size(),
+                    [&](std::size_t i) { casters[i]->outside = outsideOf(*casters[i]); });
+  long left = count;
+  if (count == 0) {
+    long needed = 0;
+    for (const Object* object : casters) needed += long(object->places) * neededCount(*object);
+    if (needed > kFewest && needed <= kMost) {
+      for (Object* object : casters) object->count = neededCount(*object);
+      return;
+    }
+    left = std::clamp<long>(needed, kFewest, kMost);
+  }
+  for (Object* object : casters) object->count = 1, left -= long(object->places);
+  // Where one more sphere takes off most; large pieces first, as long as one fits.
   const auto gain = [](const Object& object) {
     const float volume = object.solid.volume * object.world_scale3;
-    if (object.bounding_outside < kRound * volume) return 0.0;
-    const auto k = double(object.count);
-    return double(object.bounding_outside) * (std::pow(k, -2.0 / 3.0) - std::pow(k + 1.0, -2.0 / 3.0));
+    if (object.outside.front() < kRound * volume) return 0.0f;
+    return outsideAt(object, object.count) - outsideAt(object, object.count + 1);
   };
   while (left > 0) {
     Object* best = nullptr;
-    for (Object& object : objects) {
-      if (!object.casts() || long(object.places) > left) continue;
-      if (best == nullptr || gain(object) > gain(*best)) best = &object;
+    for (Object* object : casters) {
+      if (long(object->places) > left) continue;
+      if (best == nullptr || gain(*object) > gain(*best)) best = object;
     }
-    if (best == nullptr || (gain(*best) <= 0.0 && objects.size() > 1)) break;
+    if (best == nullptr || (gain(*best) <= 0.0f && (objects.size() > 1 || count == 0))) break;
     ++best->count;
     left -= long(best->places);
   }

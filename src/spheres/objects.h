@@ -16,8 +16,8 @@ struct Object {
   glm::mat4 world_from_unit{1.0f};  ///< of its first place, at the time of the bake
   float world_scale3 = 1.0f;        ///< world volume a unit volume
   std::size_t places = 1;
-  float bounding_outside = 0.0f;  ///< V_1: outside volume of its bounding sphere, in the world
-  int count = 0;                  ///< spheres it gets
+  std::vector<float> outside;  ///< volume outside it of 1, 2, 4 … spheres, roughly, in the world
+  int count = 0;               ///< spheres it gets
   bool casts() const { return set.receive_only.empty(); }
 };
 
@@ -31,7 +31,8 @@ std::vector<Object> listObjects(const Scene& scene, const PosedScene& posed, con
 /// Marks what only receives: without area, flat, a room round something else.
 void markReceivers(std::vector<Object>& objects, const PosedScene& posed);
 
-/// Gives out `count` spheres to those that cast, one at least; an object that stands in n places takes n at a time.
+/// Gives out `count` spheres to those that cast, one at least; an object that stands in n places takes n at a time. 0: as many
+/// as leave no object with more air than three times its volume, 26 to 128 together.
 void spreadCount(std::vector<Object>& objects, int count);
 
 /// Vertices, spread over the part of the surface that each sphere is nearest to by |p - c| / r.

@@ -123,7 +123,7 @@ TEST(Spheres, ReportsRisingProgress) {
 
 TEST(Spheres, RefusesOptionsOutOfRangeAndEmptyScenes) {
   const Scene scene = sceneOf(shapes::icosphere(1.0f, 3));
-  for (const int count : {0, -1, 4097}) EXPECT_THROW(bakeSpheres(scene, quick(count)), Error) << count;
+  for (const int count : {-1, 4097}) EXPECT_THROW(bakeSpheres(scene, quick(count)), Error) << count;
   SphereOptions options = quick(4);
   options.effort = NAN;
   EXPECT_THROW(bakeSpheres(scene, options), Error);
@@ -252,6 +252,25 @@ TEST(Spheres, SpreadGivesOneToEachAndTheRestByWhatIsGained) {
   spreadCount(objects, 1);
   EXPECT_EQ(objects[0].count, 1);
   EXPECT_EQ(objects[1].count, 1);
+}
+
+// Rings want a string of small spheres each, a ball one; the number follows.
+TEST(Spheres, TheNumberFollowsFromTheShapes) {
+  SceneBuilder builder("rings");
+  const int white = builder.diffuse("white", glm::vec3(0.5f));
+  builder.place("large ring", shapes::torus(0.7f, 0.075f, 64, 16), white, {0, 1, 0});
+  builder.place("small ring", shapes::torus(0.34f, 0.05f, 48, 12), white, {2, 1, 0});
+  builder.place("ball", shapes::icosphere(0.2f, 8), white, {0, 1, 0});
+  const SphereOptions options = quick(0, 0.01f);
+  const SceneSpheres spheres = bakeSpheres(builder.finish(), options);
+  ASSERT_EQ(spheres.sets.size(), 3u);
+  for (int ring = 0; ring < 2; ++ring) {
+    EXPECT_GT(spheres.sets[std::size_t(ring)].spheres.size(), 8u);
+    EXPECT_LT(spheres.sets[std::size_t(ring)].figures.relativeSum(), 4.0);
+  }
+  EXPECT_EQ(spheres.sets[2].spheres.size(), 1u);
+  const SceneSpheres one = bakeSpheres(sceneOf(shapes::box({0, 0, 0}, {1, 1, 1}, 0.25f)), options);
+  EXPECT_EQ(one.count(), 26);
 }
 
 // ---- Files --------------------------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 """Holds every technique to its error budget: tests/budgets.json says, for each technique and small scene, how far its
 picture may be from the path-traced reference of the same light and bounces.
 
-Usage: budgets_test.py GLOAM BUDGETS.json. Pictures and results stay in the folder of the first failure, for eyes.
+Usage: budgets_test.py GLOAM BUDGETS.json [TECHNIQUE…]. Pictures and results stay in the folder of the first failure, for eyes.
 """
 import json
 import math
@@ -16,16 +16,27 @@ import tempfile
 
 STAGE = ("scene", "environment", "bounces", "sh_order", "size", "spp")
 MEASURES = ("rmse", "relative_squared_error", "flip", "mean_signed_error")
+LAYERS = ("direct", "indirect")  # either may have bounds of its own: "most": {"flip": …, "direct": {"flip": …}}
 FIELDS = {*STAGE, "technique", "settings", "most", "date", "reason"}
+
+
+def bounds(budget):
+    """(layer or None, measure, greatest value) of all that is bounded."""
+    for name, most in budget["most"].items():
+        if name in LAYERS:
+            yield from ((name, measure, value) for measure, value in most.items())
+        else:
+            yield None, name, most
 
 
 def read_budgets(path):
     budgets = json.loads(path.read_text(encoding="utf-8"))["budgets"]
     for budget in budgets:
         missing, unknown = FIELDS - set(budget), set(budget) - FIELDS
-        if missing or unknown or not budget["most"] or set(budget["most"]) - set(MEASURES):
+        if missing or unknown or not budget["most"] or {name for _, name, _ in bounds(budget)} - set(MEASURES):
             raise SystemExit(f"{path}: {budget.get('technique')} on {budget.get('scene')}: missing {sorted(missing)}, "
-                             f"unknown {sorted(unknown)}, or 'most' holds other measures than {', '.join(MEASURES)}")
+                             f"unknown {sorted(unknown)}, or 'most' holds other measures than {', '.join(MEASURES)}, "
+                             f"or layers than {', '.join(LAYERS)}")
     return budgets
 
 
@@ -56,19 +67,22 @@ def compare(gloam, stage, budgets, folder):
 
 
 def violations(budget, result):
-    for measure, most in budget["most"].items():
-        value = result[measure]
+    for layer, measure, most in bounds(budget):
+        value = (result[layer] if layer else result)[measure]
+        name = f"{layer}.{measure}" if layer else measure
         kept = value is not None and math.isfinite(value) and abs(value) <= most
-        print(f"  {contender(budget):<28} {measure:<24} {value:>10.5f}  at most {most:<8g} {'' if kept else 'EXCEEDED'}")
+        shown = "null" if value is None else f"{value:.5f}"
+        print(f"  {contender(budget):<28} {name:<32} {shown:>10}  at most {most:<8g} {'' if kept else 'EXCEEDED'}")
         if not kept:
-            yield f"{contender(budget)} on {budget['scene']}: {measure} {value} is above {most} ({budget['date']}: {budget['reason']})"
+            yield f"{contender(budget)} on {budget['scene']}: {name} {value} is above {most} ({budget['date']}: {budget['reason']})"
 
 
 def main():
     gloam, path = sys.argv[1], pathlib.Path(sys.argv[2])
+    only = set(sys.argv[3:])
     folder = pathlib.Path(tempfile.mkdtemp(prefix="gloam-budgets-"))
     exceeded = []
-    for number, (stage, budgets) in enumerate(stages(read_budgets(path))):
+    for number, (stage, budgets) in enumerate(stages([b for b in read_budgets(path) if not only or b["technique"] in only])):
         results = compare(gloam, stage, budgets, folder / str(number))
         order = list(dict.fromkeys(map(contender, budgets)))
         for budget in budgets:

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Sloan, Govindaraju, Nowrouzezahrai, Snyder 2007, "Image-based proxy accumulation for real-time soft global illumination",
-// Figure 2: the pipeline. Differs from the paper: proxies are gathered by lists of tiles in compute instead of splatted, and
-// receivers within proxies follow the rule of spheres/receiver_rule.h.
+// Figure 2: the pipeline. Differs from the paper: receivers within proxies follow the rule of spheres/receiver_rule.h, and lists
+// of tiles stand beside splats.
 #include "techniques/proxies/proxies.h"
 
 #include <cstring>
 
 #include "math/sh_log_exp.h"
 #include "shaders/proxies_shaders.h"
+#include "techniques/proxies/proxies_accumulate.h"
 #include "techniques/proxies/proxies_tables.h"
 
 namespace gloam::proxies {
@@ -37,10 +38,11 @@ int exponentialKind(const std::string& name) {
 const std::vector<Option>& options() {
   static const std::vector<Option> options = {
       {.name = "spheres",
-       .default_value = 26,
-       .minimum = 1,
+       .default_value = 0,
+       .minimum = 0,
        .maximum = 4096,
-       .help = "spheres that stand for all that casts, when they are made for this picture"},
+       .help = "spheres that stand for all that casts, when they are made for this picture; 0: by size and "
+               "shape, 26 or more"},
       {.name = "divisor",
        .default_value = std::string("4"),
        .choices = {"1", "2", "4", "8"},
@@ -60,6 +62,11 @@ const std::vector<Option>& options() {
        .default_value = std::string("quadratic"),
        .choices = {"quadratic", "hyb", "ol", "ps"},
        .help = "of the sum of logs: scaling and squaring with a quadratic or linear core, linear, or series"},
+      {.name = "accumulate",
+       .default_value = std::string("tiles"),
+       .choices = {"tiles", "splat"},
+       .help =
+           "sums over proxies: gathered by a list of them a tile of receivers, or splatted with blending"},
       {.name = "coverage",
        .default_value = std::string("fixed"),
        .choices = {"fixed", "light", "all"},
@@ -83,71 +90,14 @@ std::vector<ProxyRow> rowsOf(std::span<const frame::Proxy> proxies) {
   return rows;
 }
 
-/// Of each tile, a bit for every proxy that reaches it: "proxies.bounds", "proxies.tiles".
-gpu::BufferRef recordTiles(gpu::FrameGraph& graph, const frame::ReceiverLevel& level, gpu::BufferRef proxies,
-                           std::uint32_t proxy_count, std::uint32_t words, float least_sine) {
-  const int side = int(kTileSize);
-  const int columns = (level.width + side - 1) / side, rows = (level.height + side - 1) / side;
-  const auto tiles = std::uint32_t(columns * rows);
-  const auto bounds = graph.create("proxies.bounds", gpu::BufferDesc{.bytes = tiles * sizeof(TileBounds)});
-  graph.compute("proxies.bounds", proxies_bounds_spv)
-      .read("receiver_position", level.position)
-      .write("bounds", bounds)
-      .dispatchOver(columns, rows);
-  const auto bits = graph.create(
-      "proxies.bits", gpu::BufferDesc{.bytes = std::size_t(tiles) * words * sizeof(std::uint32_t)});
-  graph.compute("proxies.tiles", proxies_tiles_spv)
-      .read("bounds", bounds)
-      .read("proxies", proxies)
-      .write("bits", bits)
-      .push(TileParams{tiles, proxy_count, least_sine})
-      .dispatch((tiles + 63) / 64, words);
-  return bits;
-}
-
-/// What of the frame is the same for every pass.
-struct Step {
-  gpu::FrameGraph& graph;
-  const frame::FrameInputs& inputs;
-  const frame::ReceiverLevel& level;
-  gpu::BufferRef proxies, light, log_table, alone_table, operator_table;
-  std::uint32_t proxy_count;
-  AccumulateParams params;
-  int indirect, exponential;
-  bool normalise, whole_field;
-
-  gpu::ImageRef image(const char* name, VkFormat format, int layers = 1) const {
-    return graph.create(name,
-                        {.format = format, .width = level.width, .height = level.height, .layers = layers});
-  }
-};
-
 constexpr std::uint32_t kMostGroups = 65535;  // of a dispatch, on any device
-constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT, kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 /// What receivers get, and the field O_p.
 struct Received {
   gpu::ImageRef field, planes, direct, indirect;
 };
 
-Received recordReceivers(const Step& step, gpu::BufferRef bits) {
-  const auto log_visibility = step.image("proxies.log_visibility_packed", kFloats, 4);
-  const auto sent = step.image("proxies.indirect_sum", kFloats);
-  step.graph.compute("proxies.accumulate", proxies_accumulate_spv)
-      .specialize("indirect_kind", step.indirect)
-      .specialize("exponential", step.exponential)
-      .read("receiver_position", step.level.position)
-      .read("receiver_normal", step.level.normal_depth)
-      .read("proxies", step.proxies)
-      .read("bits", bits)
-      .read("log_table", step.log_table)
-      .read("alone_table", step.alone_table)
-      .read("operator_table", step.operator_table)
-      .read("light", step.light)
-      .write("log_visibility", log_visibility)
-      .write("indirect", sent)
-      .push(step.params)
-      .dispatchOver(sent);
+Received recordReceivers(const Step& step, const Sums& sums) {
   const Received received{step.image("proxies.visibility_packed", kHalves, 4),
                           step.image("proxies.planes_packed", kHalves, 3),
                           step.image("proxies.direct", kHalves), step.image("proxies.indirect", kHalves)};
@@ -156,8 +106,8 @@ Received recordReceivers(const Step& step, gpu::BufferRef bits) {
       .specialize("normalise", step.normalise)
       .specialize("has_indirect", step.indirect != kIndirectOff)
       .read("receiver_normal", step.level.normal_depth)
-      .read("log_visibility", log_visibility)
-      .read("indirect_sum", sent)
+      .read("log_visibility", sums.log_visibility)
+      .read("indirect_sum", sums.sent)
       .read("light", step.light)
       .write("field", received.field)
       .write("planes", received.planes)
@@ -180,6 +130,10 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
   const Received received{{}, {}, full("proxies.direct_full"), full("proxies.indirect_full")};
   const std::uint32_t capacity = std::min(
       std::uint32_t(gbuffer.width) * std::uint32_t(gbuffer.height) / 2 + 1, kRepairGroup * kMostGroups);
+  // Of pixels between the same four receivers.
+  const auto blocks = [divisor = step.level.divisor](int pixels) {
+    return (pixels + divisor / 2 + divisor - 1) / divisor;
+  };
   const auto repairs = step.graph.create(
       "proxies.repairs", gpu::BufferDesc{.bytes = sizeof(RepairList) + 4 * std::size_t(capacity)});
   step.graph.clear("proxies.repairs", gpu::BufferRef(repairs).slice(0, sizeof(RepairList)), 1);
@@ -196,7 +150,8 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .write("direct_full", received.direct)
       .write("indirect_full", received.indirect)
       .push(UpsampleParams{std::uint32_t(step.level.divisor), capacity})
-      .dispatchOver(received.direct);
+      .dispatchOver(blocks(gbuffer.width), blocks(gbuffer.height));
+  const RepairTiles tiles = recordRepairTiles(step, repairs, capacity);
   step.graph.compute("proxies.repair", proxies_repair_spv)
       .specialize("indirect_kind", step.indirect)
       .specialize("exponential", step.exponential)
@@ -206,13 +161,14 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("normals", gbuffer.normals)
       .read("repairs", repairs)
       .read("proxies", step.proxies)
+      .read("bits", tiles.bits)
       .read("log_table", step.log_table)
       .read("alone_table", step.alone_table)
       .read("operator_table", step.operator_table)
       .read("light", step.light)
       .write("direct_full", received.direct)
       .write("indirect_full", received.indirect)
-      .push(RepairParams{step.params, step.proxy_count, capacity})
+      .push(RepairParams{step.params, tiles.columns, capacity})
       .dispatchIndirect(repairs);
   return received;
 }
@@ -262,14 +218,14 @@ frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs
                   .alone_table = alone_table_,
                   .operator_table = operator_table_,
                   .proxy_count = proxy_count,
+                  .least_sine = sh::logBlockerAlpha(std::min(shadow.from, indirect.from)),
                   .params = {words, shadow.from, shadow.to, indirect.from, indirect.to},
                   .indirect = indirectKind(settings.choice("indirect")),
                   .exponential = exponentialKind(settings.choice("exponential")),
                   .normalise = settings.flag("normalise"),
                   .whole_field = upsample == "field"};
-  const gpu::BufferRef bits = recordTiles(graph, step.level, step.proxies, proxy_count, words,
-                                          sh::logBlockerAlpha(std::min(shadow.from, indirect.from)));
-  Received received = recordReceivers(step, bits);
+  const bool splat = settings.choice("accumulate") == "splat";
+  Received received = recordReceivers(step, splat ? accumulateBySplats(step) : accumulateByTiles(step));
   int divisor = step.level.divisor;
   if ((upsample == "field" || upsample == "normal") && divisor > 1) {
     received = recordUpsampling(step, received);

@@ -14,17 +14,38 @@ layout(constant_id = 1) const int exponential = 3;
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D receiver_position;
 layout(set = 0, binding = 1) uniform sampler2D receiver_normal;
-layout(scalar, set = 0, binding = 2) readonly buffer Proxies { ProxyRow at[]; } proxies;
-layout(scalar, set = 0, binding = 3) readonly buffer Bits { uint at[]; } bits;
-layout(scalar, set = 0, binding = 4) readonly buffer LogTable { vec4 at[]; } log_table;
-layout(scalar, set = 0, binding = 5) readonly buffer OperatorTable { vec4 at[]; } operator_table;
-layout(scalar, set = 0, binding = 9) readonly buffer AloneTable { float at[]; } alone_table;
-layout(scalar, set = 0, binding = 6) uniform LightBlock { ProxyLight row; } light;
+layout(scalar, set = 0, binding = 2) readonly buffer Proxies {
+  ProxyRow at[];
+}
+proxies;
+layout(scalar, set = 0, binding = 3) readonly buffer Bits {
+  uint at[];
+}
+bits;
+layout(scalar, set = 0, binding = 4) readonly buffer LogTable {
+  vec4 at[];
+}
+log_table;
+layout(scalar, set = 0, binding = 5) readonly buffer OperatorTable {
+  vec4 at[];
+}
+operator_table;
+layout(scalar, set = 0, binding = 9) readonly buffer AloneTable {
+  float at[];
+}
+alone_table;
+layout(scalar, set = 0, binding = 6) uniform LightBlock {
+  ProxyLight row;
+}
+light;
 layout(set = 0, binding = 7) uniform writeonly image2DArray log_visibility;
 layout(set = 0, binding = 8) uniform writeonly image2D indirect;
-layout(scalar, push_constant) uniform Push { AccumulateParams params; } push;
+layout(scalar, push_constant) uniform Push {
+  AccumulateParams params;
+}
+push;
 
-#include "techniques/proxies/proxies_gather.glsl"
+#include "techniques/proxies/proxies_tile_list.glsl"
 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
@@ -32,14 +53,7 @@ void main() {
   vec4 position = texelFetch(receiver_position, place, 0);
   vec3 normal = texelFetch(receiver_normal, place, 0).xyz;
   uint first = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * push.params.words;
-  Gathered sum = Gathered(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-  for (uint w = 0u; w < push.params.words; ++w) {
-    uint left = bits.at[first + w];
-    while (left != 0u) {
-      addProxy(sum, position.xyz, normal, w * 32u + uint(findLSB(left)));
-      left &= left - 1u;
-    }
-  }
+  Gathered sum = gatherTile(position.xyz, normal, first);
   imageStore(log_visibility, ivec3(place, 0), sum.log0);
   imageStore(log_visibility, ivec3(place, 1), sum.log1);
   imageStore(log_visibility, ivec3(place, 2), sum.log2);

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-1, PX-3 to PX-5: what one proxy adds at a receiver. Includers declare the constants exponential and indirect_kind, the
-// buffers proxies, log_table, alone_table, operator_table and the uniform block light, and push push.params. All is written out: the software driver keeps
-// indexed arrays in memory.
+// buffers proxies, log_table, alone_table, operator_table and the uniform block light, and push push.params. Splats compute one
+// half: with GLOAM_PROXIES_ONLY_SHADOW or GLOAM_PROXIES_ONLY_INDIRECT defined, what the other needs is not declared. All is
+// written out: the software driver keeps indexed arrays in memory.
 #ifndef GLOAM_PROXIES_GATHER_GLSL
 #define GLOAM_PROXIES_GATHER_GLSL
 #include "math/sh.glsl"
 #include "math/sh_log_blocker.glsl"
 #include "spheres/receiver_rule.glsl"
+#ifndef GLOAM_PROXIES_ONLY_SHADOW
 #include "techniques/proxies/proxies_indirect.glsl"
+#endif
 
 struct Gathered {
   vec4 log0, log1, log2, log3;  // sum of log visibility, order 4
@@ -22,6 +25,11 @@ float fade(float from, float to, float x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
+/// Whether a receiver (w: 0 is none) lies in a proxy's sphere of influence.
+bool reaches(vec4 position, uint i, float least_sine) {
+  return position.w > 0.0 && least_sine * distance(position.xyz, proxies.at[i].center) < proxies.at[i].radius;
+}
+
 void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
   SeenSphere seen = seenSphere(position, normal, proxies.at[i].center, proxies.at[i].radius);
   float a = seen.sin_half_angle;
@@ -29,13 +37,16 @@ void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
   float at = coordinate * float(kLogEntries - 1);
   int below = min(int(at), kLogEntries - 2);
   float faded = fade(push.params.shadow_from, push.params.shadow_to, coordinate);
-  vec4 zonal = mix(log_table.at[below], log_table.at[below + 1], at - float(below)) * faded;
   float y[16];
   shEvaluate4(seen.direction, y);
+#ifndef GLOAM_PROXIES_ONLY_INDIRECT
+  vec4 zonal = mix(log_table.at[below], log_table.at[below + 1], at - float(below)) * faded;
   sum.log0 += vec4(y[0], y[1], y[2], y[3]) * zonal.xyyy;
   sum.log1 += vec4(y[4], y[5], y[6], y[7]) * zonal.z;
   sum.log2 += vec4(y[8], y[9], y[10], y[11]) * zonal.zwww;
   sum.log3 += vec4(y[12], y[13], y[14], y[15]) * zonal.w;
+#endif
+#ifndef GLOAM_PROXIES_ONLY_SHADOW
   if (indirect_kind == kIndirectOff) return;
   float cosine = sqrt(max(0.0, 1.0 - a * a));
   float along = dot(seen.direction, normal);
@@ -56,6 +67,7 @@ void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
   int alone = exponential * kLogEntries + below;
   float blocked = mix(alone_table.at[alone], alone_table.at[alone + 1], at - float(below)) * faded;  // as O_p has it
   sum.sent += vec4(arriving * proxies.at[i].albedo, blocked);
+#endif
 }
 
 #endif

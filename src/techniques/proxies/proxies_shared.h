@@ -55,15 +55,32 @@ struct AccumulateParams {
 };
 GLOAM_SHARED_SIZE(AccumulateParams, 20)
 
+/// One proxy's quad, six vertices an instance, over the receivers that its sphere of influence may hold.
+struct SplatParams {
+  AccumulateParams params;
+  float least_sine;  // of half-angles that count anywhere
+  uint columns;      // of receivers
+  uint rows;
+  uint divisor;  // pixels a side to one receiver
+};
+GLOAM_SHARED_SIZE(SplatParams, 36)
+
 struct UpsampleParams {
   uint divisor;
   uint capacity;  // of the list
 };
 GLOAM_SHARED_SIZE(UpsampleParams, 8)
 
+/// Pixels that are computed from scratch share a list of proxies within a square of that many a side.
+GLOAM_SHARED_CONST uint kRepairTile = 32u;
+struct RepairBoundsParams {
+  uint columns;   // of tiles
+  uint capacity;  // of the list
+};
+GLOAM_SHARED_SIZE(RepairBoundsParams, 8)
 struct RepairParams {
   AccumulateParams params;
-  uint proxy_count;
+  uint columns;
   uint capacity;
 };
 GLOAM_SHARED_SIZE(RepairParams, 28)

@@ -34,12 +34,13 @@ Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<fr
   settings.set("divisor", "1");
   settings.set("window", "none");
   for (const auto& [name, value] : values) settings.set(name, value);
+  const std::string level = settings.choice("divisor");
   frame.draw(pose(scene, 0.0f), camera, {.width = kSize, .height = kSize, .proxies = proxies},
              [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                return technique.record(graph, inputs, settings);
              });
-  return {frame.floats("frame.receiver_position_1"),
-          frame.floats("frame.receiver_normal_1"),
+  return {frame.floats("frame.receiver_position_" + level),
+          frame.floats("frame.receiver_normal_" + level),
           frame.floats("proxies.direct"),
           frame.floats("proxies.indirect"),
           frame.floats("proxies.visibility"),
@@ -157,6 +158,90 @@ TEST(Proxies, CoverageOracleChangesThePictureByAtMostFourOf256) {
       }
     }
   }
+}
+
+// Splats and lists of tiles are the same sum, from anywhere: above, from within the spheres of influence, and in parallel.
+TEST(Proxies, SplatsAndTilesShowTheSamePicture) {
+  const Scene scene = planeScene("preetham?elevation=25");
+  PosedCamera parallel = frame::cameraAt({1, 9, 4}, {0, 0, 0});
+  parallel.camera.perspective = false;
+  parallel.camera.half_height = 3.0f;
+  const PosedCamera cameras[] = {kAbove, frame::cameraAt({0.4f, 0.7f, 0.3f}, {-3, 0, 1}, 70), parallel};
+  for (const char* coverage : {"fixed", "light", "all"}) {
+    for (const PosedCamera& camera : cameras) {
+      for (const char* divisor : {"1", "4"}) {
+        const Values common = {{"coverage", coverage}, {"divisor", divisor}};
+        Values splat = common;
+        splat.emplace_back("accumulate", "splat");
+        const Picture want = draw(scene, camera, crowd(40), common),
+                      got = draw(scene, camera, crowd(40), splat);
+        float brightest = 0.0f, least = INFINITY;
+        for (const float value : want.direct) brightest = std::max(brightest, value);
+        for (std::size_t i = 0; i < want.direct.size(); ++i) {
+          ASSERT_NEAR(got.direct[i], want.direct[i], 2e-3f * brightest) << coverage << ' ' << divisor;
+          ASSERT_NEAR(got.indirect[i], want.indirect[i], 2e-3f * brightest) << coverage << ' ' << divisor;
+        }
+        for (const float value : got.visibility) least = value > 0.0f ? std::min(least, value) : least;
+        ASSERT_LT(least, 0.97f) << "there are shadows";
+      }
+    }
+  }
+}
+
+TEST(Proxies, SplatsOfNothingAndWithoutIndirectLight) {
+  const Scene scene = planeScene("uniform");
+  const Picture open = draw(scene, kAbove, {}), none = draw(scene, kAbove, {}, {{"accumulate", "splat"}});
+  EXPECT_EQ(open.direct, none.direct);
+  const Picture tiles = draw(scene, kAbove, crowd(8), {{"indirect", "off"}});
+  const Picture splat = draw(scene, kAbove, crowd(8), {{"indirect", "off"}, {"accumulate", "splat"}});
+  for (std::size_t i = 0; i < tiles.direct.size(); ++i) ASSERT_NEAR(splat.direct[i], tiles.direct[i], 2e-3f);
+  for (std::size_t i = 0; i < splat.indirect.size(); i += 4) ASSERT_EQ(splat.indirect[i], 0.0f);
+}
+
+/// Irradiance from an unshadowed white sphere, by directions: the slow twin of all three operators.
+glm::vec3 irradianceFromOne(const sh::ShRgb& light, const glm::vec3& p, const glm::vec3& n,
+                            const frame::Proxy& ball) {
+  constexpr int kWays = 4000;
+  const glm::vec3 d = ball.center - p;
+  const float distance = glm::length(d),
+              cosine = std::sqrt(1.0f - ball.radius * ball.radius / (distance * distance));
+  const glm::vec3 axis = d / distance, t = glm::normalize(glm::cross(axis, glm::vec3(1, 0.2f, 0))),
+                  b = glm::cross(axis, t);
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < kWays; ++i) {
+    const glm::vec2 u = sampling::r2(std::uint32_t(i));
+    const float z = 1.0f - u.x * (1.0f - cosine), side = std::sqrt(1.0f - z * z), angle = 2.0f * kPi * u.y;
+    const glm::vec3 s = z * axis + side * (std::cos(angle) * t + std::sin(angle) * b);
+    const float along = glm::dot(s, d);
+    const float hit =
+        along - std::sqrt(std::max(0.0f, along * along - distance * distance + ball.radius * ball.radius));
+    const glm::vec3 normal = (p + hit * s - ball.center) / ball.radius;
+    sum += sh::irradiance(light, normal) / kPi * std::max(0.0f, glm::dot(n, s));
+  }
+  return sum * (2.0f * kPi * (1.0f - cosine) / float(kWays));
+}
+
+// What a sphere sends to a plane: all light that leaves towards it, summed by directions. What differs are three bands of the cosine
+// and the disc; and of the point-sampled operator that the side towards the plane is not all of what is seen.
+TEST(Proxies, OperatorsAgreeWithTheSumOverDirections) {
+  const Scene scene = planeScene("preetham?elevation=40");
+  const frame::Proxy ball{{0.3f, 1.6f, -0.2f}, 0.8f, glm::vec3(1.0f)};
+  const sh::ShRgb light = sh::truncated(projectEnvironment(scene.environment, 6), 4);
+  const auto error = [&](const char* kind) {
+    const Picture picture = draw(scene, kAbove, {ball}, {{"indirect", kind}, {"coverage", "all"}});
+    double wrong = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < picture.pixels(); i += 7) {
+      const glm::vec3 want =
+          irradianceFromOne(light, picture.at(picture.position, i), picture.at(picture.normal, i), ball);
+      const glm::vec3 d = picture.at(picture.indirect, i) - want;
+      wrong += double(glm::dot(d, d)), all += double(glm::dot(want, want));
+    }
+    return wrong / all;
+  };
+  const double exact = error("exact"), averaged = error("averaged"), point = error("point");
+  EXPECT_LT(exact, 0.002);
+  EXPECT_LT(averaged, 0.012);
+  EXPECT_LT(averaged, 0.25 * point);
 }
 
 // A ball that one sphere stands for, exactly or a little too large, is lit as if nothing stood for it.
