@@ -84,17 +84,17 @@ std::vector<Face> floatingBox(const glm::vec3& half, float low, float high) {
   return faces;
 }
 
-constexpr float kHalfWidth = 4.0f, kHalfDepth = 3.0f, kHeight = 3.6f;
+constexpr float kHalfWidth = 4.0f, kBack = -3.0f, kFront = 5.6f, kHeight = 3.6f;
 
 /// A ceiling with a long opening, and the shaft above it.
 std::vector<Face> ceiling(const glm::vec2& low, const glm::vec2& high, float shaft) {
-  const float x = kHalfWidth, z = kHalfDepth, y = kHeight;
+  const float x = kHalfWidth, y = kHeight;
   const auto strip = [&](float x0, float x1, float z0, float z1) {
     return Face{{x0, y, z1}, {x1 - x0, 0, 0}, {0, 0, z0 - z1}};
   };
   const float top = y + shaft, w = high.x - low.x, d = high.y - low.y;
-  return {strip(-x, x, -z, low.y),
-          strip(-x, x, high.y, z),
+  return {strip(-x, x, kBack, low.y),
+          strip(-x, x, high.y, kFront),
           strip(-x, low.x, low.y, high.y),
           strip(high.x, x, low.y, high.y),
           {{low.x, top, low.y}, {w, 0, 0}, {0, -shaft, 0}},
@@ -110,19 +110,20 @@ Mesh turned(Mesh mesh, float angle_deg) {
 
 }  // namespace
 
-// Eight metres wide, six deep, open towards the viewer; a long skylight.
+// Eight metres wide, nearly nine deep, closed on all sides; a skylight is all its light.
 Scene makeGallery(const Detail& detail, NamedValues&) {
   SceneBuilder builder("gallery");
   const int white = builder.diffuse("plaster", {0.78f, 0.77f, 0.74f});
   const int stone = builder.diffuse("floor", {0.42f, 0.38f, 0.34f});
   const int red = builder.diffuse("red wall", {0.55f, 0.09f, 0.06f});
   const int wood = builder.diffuse("wood", {0.44f, 0.27f, 0.14f});
-  const float x = kHalfWidth, y = kHeight, z = kHalfDepth;
-  builder.place("floor", plainFaces({{{-x, 0, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}}}), stone);
-  builder.place("back wall", plainFaces({{{-x, y, -z}, {2 * x, 0, 0}, {0, -y, 0}}}), white);
-  builder.place("left wall", plainFaces({{{-x, y, z}, {0, 0, -2 * z}, {0, -y, 0}}}), red);
-  builder.place("right wall", plainFaces({{{x, y, -z}, {0, 0, 2 * z}, {0, -y, 0}}}), white);
-  builder.place("ceiling", plainFaces(ceiling({-2.4f, -1.3f}, {2.4f, 0.1f}, 0.35f)), white);
+  const float x = kHalfWidth, y = kHeight, depth = kFront - kBack;
+  builder.place("floor", plainFaces({{{-x, 0, kBack}, {2 * x, 0, 0}, {0, 0, depth}}}), stone);
+  builder.place("back wall", plainFaces({{{-x, y, kBack}, {2 * x, 0, 0}, {0, -y, 0}}}), white);
+  builder.place("front wall", plainFaces({{{x, y, kFront}, {-2 * x, 0, 0}, {0, -y, 0}}}), white);
+  builder.place("left wall", plainFaces({{{-x, y, kFront}, {0, 0, -depth}, {0, -y, 0}}}), red);
+  builder.place("right wall", plainFaces({{{x, y, kBack}, {0, 0, depth}, {0, -y, 0}}}), white);
+  builder.place("ceiling", plainFaces(ceiling({-2.6f, -1.6f}, {2.6f, 0.9f}, 0.3f)), white);
 
   builder.place("screen", turned(plainFaces(standingBox({1.15f, 0, 0.08f}, 2.3f)), 24), white,
                 {-0.35f, 0, -1.75f});
@@ -138,9 +139,11 @@ Scene makeGallery(const Detail& detail, NamedValues&) {
   builder.place("knot", shapes::torusKnot(2, 3, 0.3f, 0.13f, 0.075f, detail(160), detail(14)), clay,
                 {-2.35f, 1.05f + 0.225f, -0.7f});
   builder.place("ball", shapes::icosphere(0.36f, detail(14)), blue, {1.9f, 0.6f + 0.36f, -0.9f});
-  builder.camera({0.9f, 1.75f, 7.6f}, {-0.1f, 1.35f, -0.6f}, 36);
+  builder.camera({1.3f, 1.75f, 5.3f}, {-0.15f, 1.2f, -0.8f}, 44);
   builder.sky("mild");
-  return builder.finish();
+  Scene scene = builder.finish();
+  scene.environment.intensity = 4.0f;  // little of the sky is seen from inside
+  return scene;
 }
 
 }  // namespace gloam

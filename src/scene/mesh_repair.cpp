@@ -59,8 +59,10 @@ void remapVertices(Mesh& mesh, std::span<const std::uint32_t> source) {
   if (mesh.transfer) {
     auto transfer = std::make_shared<Transfer>(*mesh.transfer);
     const auto coefficients = static_cast<std::size_t>(transfer->order * transfer->order);
-    remapArray(transfer->direct, source, coefficients);
-    remapArray(transfer->indirect, source, 3 * coefficients);
+    if (!transfer->ofTexels()) {
+      remapArray(transfer->direct, source, coefficients);
+      remapArray(transfer->indirect, source, 3 * coefficients);
+    }
     remapArray(transfer->glossy.visibility, source, transfer->glossy.visibilityCount());
     remapArray(transfer->glossy.indirect, source, 3 * transfer->glossy.matrixCount());
     mesh.transfer = std::move(transfer);

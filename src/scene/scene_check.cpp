@@ -78,10 +78,16 @@ class SceneCheck {
       require(!finished_ || (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)), where,
               "a position is not finite");
     if (m.transfer) {
-      const auto size = n * static_cast<std::size_t>(m.transfer->order * m.transfer->order);
+      const bool texels = m.transfer->ofTexels();
+      const std::size_t points = texels ? static_cast<std::size_t>(m.transfer->texel_width) *
+                                              static_cast<std::size_t>(m.transfer->texel_height)
+                                        : n;
+      const auto size = points * static_cast<std::size_t>(m.transfer->order * m.transfer->order);
       require(m.transfer->direct.size() == size &&
                   (m.transfer->indirect.empty() || m.transfer->indirect.size() == 3 * size),
-              where, "transfer does not fit the vertices");
+              where, texels ? "transfer does not fit the texels" : "transfer does not fit the vertices");
+      require(!texels || inRange(m.transfer->uv_set, m.uv_sets), where,
+              "the lightmap's coordinates are missing");
       const GlossyTransfer& glossy = m.transfer->glossy;
       require(glossy.visibility.size() == n * glossy.visibilityCount() &&
                   (glossy.indirect.empty() || glossy.indirect.size() == 3 * n * glossy.matrixCount()),

@@ -127,6 +127,41 @@ glm::vec3 raised(const BakePoints& points, std::size_t point, const glm::vec3& a
   return p + along + height * n;
 }
 
+glm::vec3 mixed(const std::vector<glm::vec3>& values, const glm::uvec3& corners, const glm::vec2& share) {
+  return (1.0f - share.x - share.y) * values[corners.x] + share.x * values[corners.y] +
+         share.y * values[corners.z];
+}
+
+// Towards the middle of the triangle until all edges are farther than the inset, or half of the way.
+glm::vec2 insetShare(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec2& share,
+                     float inset) {
+  const float doubled = glm::length(glm::cross(b - a, c - a));
+  const float edge[3] = {glm::length(c - b), glm::length(c - a), glm::length(b - a)};
+  const float at[3] = {1.0f - share.x - share.y, share.x, share.y};
+  float towards = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const float least = doubled > 0.0f ? std::min(inset * edge[k] / doubled, 1.0f / 6.0f) : 0.0f;
+    if (at[k] < least) towards = std::max(towards, (least - at[k]) / (1.0f / 3.0f - at[k]));
+  }
+  return glm::mix(share, glm::vec2(1.0f / 3.0f), towards);
+}
+
+glm::vec3 rayOriginInFace(const BakePoints& points, std::size_t point) {
+  const FacePoint& face = points.facePoint(point);
+  const glm::uvec3& corners = points.triangles[face.triangle];
+  const auto& p = points.positions;
+  const glm::vec2 share =
+      insetShare(p[corners.x], p[corners.y], p[corners.z], face.share, kFaceInset * face.spacing);
+  const glm::vec3 flat = mixed(p, corners, share);
+  const float weights[3] = {1.0f - share.x - share.y, share.x, share.y};
+  glm::vec3 origin = flat;
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3& normal = points.normals[corners[k]];
+    origin += weights[k] * std::max(0.0f, -glm::dot(flat - p[corners[k]], normal)) * normal;
+  }
+  return origin + std::max(surfaceOffset(points, point), kLift * face.spacing) * points.normals[point];
+}
+
 glm::vec3 tangential(const glm::vec3& v, const glm::vec3& normal) {
   return v - normal * glm::dot(v, normal);
 }
@@ -146,6 +181,16 @@ BakePoints makeBakePoints(const Scene& scene, const PosedScene& posed) {
   return points;
 }
 
+void addFacePoint(BakePoints& points, const FacePoint& point) {
+  const glm::uvec3& corners = points.triangles[point.triangle];
+  const glm::vec3 normal = mixed(points.normals, corners, point.share);
+  points.positions.push_back(mixed(points.positions, corners, point.share));
+  points.normals.push_back(unitOr(normal, points.normals[corners.x]));
+  points.faces.push_back(point.triangle);
+  points.first_face.push_back(static_cast<std::uint32_t>(points.faces.size()));
+  points.on_faces.push_back(point);
+}
+
 float surfaceOffset(const BakePoints& points, std::size_t point) {
   float offset = 0.0f;
   for (const std::uint32_t face : points.facesOf(point)) {
@@ -157,6 +202,7 @@ float surfaceOffset(const BakePoints& points, std::size_t point) {
 }
 
 float meshSpacing(const BakePoints& points, std::size_t point) {
+  if (points.onFace(point)) return points.facePoint(point).spacing;
   float sum = 0.0f;
   const auto faces = points.facesOf(point);
   for (const std::uint32_t face : faces) sum += glm::length(points.centroid(face) - points.positions[point]);
@@ -164,6 +210,7 @@ float meshSpacing(const BakePoints& points, std::size_t point) {
 }
 
 glm::vec3 rayOrigin(const BakePoints& points, std::size_t point) {
+  if (points.onFace(point)) return rayOriginInFace(points, point);
   const auto faces = points.facesOf(point);
   glm::vec3 mean(0.0f);
   for (const std::uint32_t face : faces) mean += points.centroid(face) - points.positions[point];

@@ -1,0 +1,90 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "bake_surfaces.h"
+
+#include <fmt/core.h>
+
+#include "output.h"
+
+namespace gloam::cli {
+namespace {
+
+std::string splitText(const TessellateReport& report, float bound) {
+  std::string text = fmt::format(
+      "tessellated: {} vertices added ({} to {}), {} triangles; error of transfer between vertices {:.1f} % "
+      "before, {:.1f} % after",
+      countText(report.vertices_after - report.vertices_before), countText(report.vertices_before),
+      countText(report.vertices_after), countText(report.triangles_after), 100.0 * report.error_before,
+      100.0 * report.error_after);
+  if (report.above == 0) return text;
+  text += fmt::format("; {} triangles are above {:.1f} %", countText(report.above), 100.0 * double(bound));
+  if (report.at_finest > 0)
+    text += fmt::format(", {} of them at edges of light and shadow, as small as they get",
+                        countText(report.at_finest));
+  if (report.at_finest < report.above) text += ": --tessellate-max allows no more";
+  return text;
+}
+
+}  // namespace
+
+void addSurfaceOptions(CLI::App& app, BakeOptions& options, SurfaceChoice& choice) {
+  const auto grouped = [](CLI::Option* option) { return option->group("Surfaces"); };
+  grouped(addInteger(app, "--texels", options.texels, {4, 4096}, "N",
+                     "diffuse transfer of the texels of a lightmap, N by N a mesh; for meshes with texture "
+                     "coordinates for one"));
+  grouped(addNumber(app, "--texels-per-metre", options.texels_per_metre, {0.001, 1e6}, "N",
+                    "the same by density: lightmaps as large as each mesh asks for, --texels at most"));
+  choice.uv_set_option = grouped(addInteger(app, "--uv-set", options.uv_set, {0, 7}, "N",
+                                            "texture coordinates of lightmaps: TEXCOORD_N"))
+                             ->default_str(std::to_string(options.uv_set));
+  grouped(
+      addNumber(app, "--tessellate", choice.tessellate, {0.005, 1.0}, "ERROR",
+                "split triangles until transfer between vertices errs by less than this part of open light"));
+  choice.max_option = grouped(addInteger(app, "--tessellate-max", choice.tessellate_max, {3, 100000000}, "N",
+                                         "vertices of the scene at most"))
+                          ->default_str(std::to_string(choice.tessellate_max));
+}
+
+void remarkUnusedSurfaceOptions(const BakeOptions& options, const SurfaceChoice& choice, Console& console) {
+  if (options.texels == 0 && options.texels_per_metre == 0.0f && choice.uv_set_option->count() > 0)
+    console.remark("--uv-set has no effect without --texels or --texels-per-metre");
+  if (choice.tessellate == 0.0f && choice.max_option->count() > 0)
+    console.remark("--tessellate-max has no effect without --tessellate");
+}
+
+Scene tessellatedAsChosen(Scene scene, const BakeOptions& options, const SurfaceChoice& choice,
+                          Console& console, TessellateReport& report) {
+  if (choice.tessellate == 0.0f) return scene;
+  TessellateOptions how;
+  how.error = choice.tessellate;
+  how.max_vertices = std::size_t(choice.tessellate_max);
+  how.order = options.order;
+  how.threads = options.threads;
+  how.time_s = options.time_s;
+  Progress progress = console.progress();
+  if (progress.update) {
+    progress.update = [&console, update = progress.update](double fraction, const std::string& what) {
+      console.release();
+      update(fraction, what);
+    };
+  }
+  Scene split = tessellateForTransfer(scene, how, progress, &report);
+  console.endProgress();
+  console.remark(splitText(report, choice.tessellate));
+  split.environment = std::move(scene.environment);
+  return split;
+}
+
+Json tessellateJson(const SurfaceChoice& choice, const TessellateReport& report) {
+  if (choice.tessellate == 0.0f) return nullptr;
+  return {{"vertices_before", report.vertices_before},
+          {"vertices_after", report.vertices_after},
+          {"triangles_before", report.triangles_before},
+          {"triangles_after", report.triangles_after},
+          {"error_before", report.error_before},
+          {"error_after", report.error_after},
+          {"triangles_above", report.above},
+          {"triangles_at_finest", report.at_finest}};
+}
+
+}  // namespace gloam::cli
