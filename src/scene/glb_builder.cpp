@@ -21,7 +21,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "glTF's buffers are little-endian and copied as they are");
 
-constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
 template <typename T>
 std::span<const std::uint8_t> bytesOf(std::span<const T> values) {
@@ -84,6 +84,10 @@ int GlbBuilder::addFloats(std::span<const float> values, int components, Target 
     root["accessors"].back()["max"] = high;
   }
   return index;
+}
+
+int GlbBuilder::addBytes(std::span<const std::uint8_t> values, int components, Target target) {
+  return addAccessor(addView(values, target), kUnsignedByte, values.size() / std::size_t(components), components);
 }
 
 int GlbBuilder::addShorts(std::span<const std::uint16_t> values, int components, Target target) {

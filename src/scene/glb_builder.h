@@ -30,6 +30,7 @@ class GlbBuilder {
   int addView(std::span<const std::uint8_t> bytes, Target target = Target::kNone);
   /// `components` 1, 2, 3, 4 or 16 (a matrix); `bounds` adds min and max, which glTF asks for of positions and key times.
   int addFloats(std::span<const float> values, int components, Target target, bool bounds = false);
+  int addBytes(std::span<const std::uint8_t> values, int components, Target target);
   int addShorts(std::span<const std::uint16_t> values, int components, Target target);
   /// 16 bits an index where that suffices.
   int addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);

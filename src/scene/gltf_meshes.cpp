@@ -166,16 +166,17 @@ class PrimitiveReader {
     const Json* extension = GltfDocument::extension(json_, kTransferExtension);
     if (!extension) return;
     const std::string field = where_ + ".extensions." + kTransferExtension;
-    if (used_.size() == position_.count) {
-      mesh.transfer = readTransfer(reading_.accessors, *extension, mesh.positions, corners_, field);
-      return;
-    }
     document_.budget.charge(position_.count, sizeof(glm::vec3) + sizeof(std::uint32_t), field);
     std::vector<std::uint32_t> all(position_.count);
     std::iota(all.begin(), all.end(), 0u);
-    const auto transfer =
-        readTransfer(reading_.accessors, *extension, gather<glm::vec3>(position_, all), corners_, field);
-    mesh.transfer = transferOfVertices(*transfer, used_);
+    const auto uvSet = [&](int set) -> std::optional<std::vector<glm::vec2>> {
+      const AccessorView view = attribute(fmt::format("TEXCOORD_{}", set), {2});
+      if (!view.data) return std::nullopt;
+      return gather<glm::vec2>(view, all);
+    };
+    const auto transfer = readTransfer(reading_.accessors, *extension, gather<glm::vec3>(position_, all),
+                                       corners_, uvSet, field);
+    mesh.transfer = used_.size() == position_.count ? transfer : transferOfVertices(*transfer, used_);
   }
 
   void readSkinning(Mesh& mesh) {

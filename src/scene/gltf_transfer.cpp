@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "scene/gltf_transfer_pca.h"
+#include "scene/gltf_transfer_reader.h"
 #include "scene/half_float.h"
 
 namespace gloam {
@@ -16,10 +19,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kVersion = 1;
+// 2: points may be texels. Written only where they are, so that older readers take the rest.
+// 3: diffuse transfer may be compressed.
+constexpr int kVersion = 1, kVersionOfTexels = 2, kVersionOfPca = 3;
 constexpr const char *kUnshadowed = "unshadowed", *kShadowed = "shadowed",
                      *kInterreflected = "interreflected";
-constexpr int kUnsignedShort = 5123, kFloat = 5126;
 
 std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size) {
   static const std::array<std::uint32_t, 256> table = [] {
@@ -35,86 +39,15 @@ std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size) {
   return crc;
 }
 
-int addNumbers(const std::vector<float>& values, bool half_float, GlbBuilder& builder) {
+}  // namespace
+
+int addTransferNumbers(const std::vector<float>& values, bool half_float, GlbBuilder& builder) {
   if (!half_float) return builder.addFloats(values, 1, GlbBuilder::Target::kNone);
   std::vector<std::uint16_t> halves;
   halves.reserve(values.size());
   for (const float value : values) halves.push_back(halfFromFloat(value));
   return builder.addShorts(halves, 1, GlbBuilder::Target::kNone);
 }
-
-/// Members of the extension's object, each checked as it is taken.
-class TransferReader {
- public:
-  TransferReader(GltfAccessors& accessors, const Json& json, const std::string& where)
-      : accessors_(accessors), document_(accessors.document()), json_(json), where_(where) {
-    if (!json.is_object()) document_.fail(where, "an object was expected");
-  }
-
-  int integer(const char* name, int least, int most) const {
-    const auto found = json_.find(name);
-    if (found == json_.end()) fail(name, "missing");
-    if (!found->is_number_integer() || *found < least || *found > most) {
-      fail(name, fmt::format("{} is not a whole number from {} to {}", shortText(*found), least, most));
-    }
-    return found->get<int>();
-  }
-
-  std::string word(const char* name) const {
-    const auto found = json_.find(name);
-    if (found == json_.end()) fail(name, "missing");
-    if (!found->is_string()) fail(name, fmt::format("{} is not a string", shortText(*found)));
-    return found->get<std::string>();
-  }
-
-  float number(const char* name, float least, float most) const {
-    const Json& value = json_.at(name);
-    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most)) {
-      fail(name, fmt::format("{} is not a number from {} to {}", shortText(value), least, most));
-    }
-    return value.get<float>();
-  }
-
-  bool has(const char* name) const { return json_.contains(name); }
-
-  std::vector<float> numbers(const char* name, std::size_t count, bool half_float) const {
-    const std::size_t accessors = document_.array("accessors").size();
-    if (accessors == 0) fail(name, "the file has no accessors");
-    const int index = integer(name, 0, int(std::min<std::size_t>(accessors, 0x7fffffffu)) - 1);
-    const AccessorView view = accessors_.view(index);
-    const int type = half_float ? kUnsignedShort : kFloat;
-    if (view.component_type != type || view.components != 1 || view.normalized) {
-      fail(name, fmt::format("accessors[{}] must be SCALAR of component type {}", index, type));
-    }
-    if (view.count != count) {
-      fail(name, fmt::format("accessors[{}] has {} elements, {} were expected", index, view.count, count));
-    }
-    document_.budget.charge(count, sizeof(float), where_ + "." + name);
-    std::vector<float> values(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      values[i] = half_float ? floatFromHalf(std::uint16_t(view.integer(i, 0))) : view.number(i, 0);
-      if (!std::isfinite(values[i]))
-        fail(name, fmt::format("element {} of accessors[{}] is not finite", i, index));
-    }
-    return values;
-  }
-
-  [[noreturn]] void fail(const char* name, const std::string& message) const {
-    document_.fail(where_ + "." + name, message);
-  }
-
- private:
-  static std::string shortText(const Json& value) {
-    return value.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 40);
-  }
-
-  GltfAccessors& accessors_;
-  GltfDocument& document_;
-  const Json& json_;
-  const std::string& where_;
-};
-
-}  // namespace
 
 std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
   static_assert(sizeof(glm::vec3) == 12);
@@ -124,27 +57,46 @@ std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<con
   return fmt::format("{:08x}", crc ^ 0xFFFFFFFFu);
 }
 
+std::string texCoordChecksum(std::span<const glm::vec2> uvs) {
+  static_assert(sizeof(glm::vec2) == 8);
+  return fmt::format("{:08x}", crc32(0xFFFFFFFFu, uvs.data(), uvs.size_bytes()) ^ 0xFFFFFFFFu);
+}
+
 const char* transferKind(const Transfer& transfer) {
   if (transfer.bounces > 0) return kInterreflected;
   return transfer.directions > 0 ? kShadowed : kUnshadowed;
 }
 
 Json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, GlbBuilder& builder) {
-  Json json = {{"version", kVersion},
+  Json json = {{"version", transfer.ofTexels() ? kVersionOfTexels : kVersion},
                {"kind", transferKind(transfer)},
                {"order", transfer.order},
                {"bounces", transfer.indirect.empty() ? 0 : transfer.bounces},
                {"directions", transfer.directions},
                {"format", half_float ? "half" : "float"},
-               {"geometry", geometryChecksum(mesh.positions, mesh.indices)},
-               {"direct", addNumbers(transfer.direct, half_float, builder)}};
-  if (!transfer.indirect.empty()) json["indirect"] = addNumbers(transfer.indirect, half_float, builder);
+               {"geometry", geometryChecksum(mesh.positions, mesh.indices)}};
+  if (transfer.object > 0) json["object"] = transfer.object;
+  if (transfer.compressed) {
+    json["version"] = kVersionOfPca;
+    json["pca"] = pcaJson(*transfer.compressed, half_float, builder);
+  } else {
+    json["direct"] = addTransferNumbers(transfer.direct, half_float, builder);
+    if (!transfer.indirect.empty())
+      json["indirect"] = addTransferNumbers(transfer.indirect, half_float, builder);
+  }
+  if (transfer.ofTexels()) {
+    json["texels"] = {{"width", transfer.texel_width},
+                      {"height", transfer.texel_height},
+                      {"texCoord", transfer.uv_set},
+                      {"uvs", texCoordChecksum(mesh.uv_sets[std::size_t(transfer.uv_set)])}};
+  }
   const GlossyTransfer& glossy = transfer.glossy;
   if (glossy.empty()) return json;
   json["glossy"] = {{"lightOrder", glossy.light_order},
                     {"fieldOrder", glossy.field_order},
-                    {"visibility", addNumbers(glossy.visibility, half_float, builder)}};
-  if (!glossy.indirect.empty()) json["glossy"]["indirect"] = addNumbers(glossy.indirect, half_float, builder);
+                    {"visibility", addTransferNumbers(glossy.visibility, half_float, builder)}};
+  if (!glossy.indirect.empty())
+    json["glossy"]["indirect"] = addTransferNumbers(glossy.indirect, half_float, builder);
   if (glossy.exponent > 0.0f) json["glossy"]["exponent"] = tidy(glossy.exponent);
   return json;
 }
@@ -165,18 +117,38 @@ static GlossyTransfer readGlossy(GltfAccessors& accessors, const Json& json, con
   return glossy;
 }
 
+/// Where transfer is that of a lightmap.
+static void readTexels(GltfAccessors& accessors, const Json& json, const std::string& where,
+                       const UvSet& uvSet, Transfer& transfer) {
+  constexpr int kMostTexels = 65536;
+  const TransferReader reader(accessors, json, where);
+  transfer.texel_width = reader.integer("width", 1, kMostTexels);
+  transfer.texel_height = reader.integer("height", 1, kMostTexels);
+  transfer.uv_set = reader.integer("texCoord", 0, 7);
+  const std::optional<std::vector<glm::vec2>> uvs = uvSet(transfer.uv_set);
+  if (!uvs) reader.fail("texCoord", fmt::format("the primitive has no TEXCOORD_{}", transfer.uv_set));
+  const std::string checksum = texCoordChecksum(*uvs);
+  if (reader.word("uvs") != checksum) {
+    reader.fail("uvs",
+                fmt::format("the transfer belongs to other texture coordinates (the checksum of these is {})",
+                            checksum));
+  }
+}
+
 std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Json& extension,
                                              std::span<const glm::vec3> positions,
-                                             std::span<const std::uint32_t> indices,
+                                             std::span<const std::uint32_t> indices, const UvSet& uvSet,
                                              const std::string& where) {
   const TransferReader reader(accessors, extension, where);
   const int version = reader.integer("version", 1, 0x7fffffff);
-  if (version != kVersion)
-    reader.fail("version", fmt::format("{} is not known; {} is read", version, kVersion));
+  if (version > kVersionOfPca)
+    reader.fail("version",
+                fmt::format("{} is not known; {} to {} are read", version, kVersion, kVersionOfPca));
   auto transfer = std::make_shared<Transfer>();
   transfer->order = reader.integer("order", 1, sh::kMaxOrder);
   transfer->bounces = reader.integer("bounces", 0, 1000000);
   transfer->directions = reader.integer("directions", 0, 0x7fffffff);
+  if (reader.has("object")) transfer->object = reader.integer("object", 0, 0x7fffffff);
   // For information, and so taken as far as it is understood: transfer that was sampled along no direction is unshadowed.
   const Json kind = extension.value("kind", Json());
   if (kind == kUnshadowed && transfer->bounces == 0) transfer->directions = 0;
@@ -190,12 +162,21 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
     reader.fail("geometry",
                 fmt::format("the transfer belongs to another mesh (this one's checksum is {})", checksum));
   }
-  const std::size_t count = positions.size() * std::size_t(transfer->order * transfer->order);
-  transfer->direct = reader.numbers("direct", count, format == "half");
-  if (transfer->bounces > 0) {
-    transfer->indirect = reader.numbers("indirect", 3 * count, format == "half");
-  } else if (reader.has("indirect")) {
-    reader.fail("indirect", "there are no bounces");
+  if (version >= kVersionOfTexels && reader.has("texels"))
+    readTexels(accessors, extension.at("texels"), where + ".texels", uvSet, *transfer);
+  const std::size_t points = transfer->ofTexels()
+                                 ? std::size_t(transfer->texel_width) * std::size_t(transfer->texel_height)
+                                 : positions.size();
+  const std::size_t count = points * std::size_t(transfer->order * transfer->order);
+  if (version >= kVersionOfPca && reader.has("pca")) {
+    readPca(accessors, extension.at("pca"), where + ".pca", points, format == "half", *transfer);
+  } else {
+    transfer->direct = reader.numbers("direct", count, format == "half");
+    if (transfer->bounces > 0) {
+      transfer->indirect = reader.numbers("indirect", 3 * count, format == "half");
+    } else if (reader.has("indirect")) {
+      reader.fail("indirect", "there are no bounces");
+    }
   }
   if (reader.has("glossy")) {
     transfer->glossy = readGlossy(accessors, extension.at("glossy"), where + ".glossy", positions.size(),
@@ -210,6 +191,12 @@ std::shared_ptr<const Transfer> transferOfVertices(const Transfer& transfer,
   picked->order = transfer.order;
   picked->bounces = transfer.bounces;
   picked->directions = transfer.directions;
+  picked->object = transfer.object;
+  if (transfer.compressed && transfer.ofTexels()) {
+    picked->compressed = transfer.compressed;
+  } else if (transfer.compressed) {
+    picked->compressed = pcaOfPoints(*transfer.compressed, vertices);
+  }
   const auto pick = [&](const std::vector<float>& from, std::size_t stride, std::vector<float>& to) {
     if (from.empty()) return;
     to.reserve(vertices.size() * stride);
@@ -219,8 +206,16 @@ std::shared_ptr<const Transfer> transferOfVertices(const Transfer& transfer,
     }
   };
   const std::size_t coefficients = std::size_t(transfer.order * transfer.order);
-  pick(transfer.direct, coefficients, picked->direct);
-  pick(transfer.indirect, 3 * coefficients, picked->indirect);
+  if (transfer.ofTexels()) {
+    picked->texel_width = transfer.texel_width;
+    picked->texel_height = transfer.texel_height;
+    picked->uv_set = transfer.uv_set;
+    picked->direct = transfer.direct;
+    picked->indirect = transfer.indirect;
+  } else {
+    pick(transfer.direct, coefficients, picked->direct);
+    pick(transfer.indirect, 3 * coefficients, picked->indirect);
+  }
   const GlossyTransfer& glossy = transfer.glossy;
   picked->glossy.light_order = glossy.light_order;
   picked->glossy.field_order = glossy.field_order;

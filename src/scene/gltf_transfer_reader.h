@@ -1,0 +1,119 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What the parts of GLOAM_precomputed_transfer are read with.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_transfer.h"
+#include "scene/half_float.h"
+
+namespace gloam {
+
+/// Members of the extension's object, each checked as it is taken.
+class TransferReader {
+ public:
+  TransferReader(GltfAccessors& accessors, const nlohmann::json& json, const std::string& where)
+      : accessors_(accessors), document_(accessors.document()), json_(json), where_(where) {
+    if (!json.is_object()) document_.fail(where, "an object was expected");
+  }
+
+  int integer(const char* name, int least, int most) const {
+    const auto found = json_.find(name);
+    if (found == json_.end()) fail(name, "missing");
+    if (!found->is_number_integer() || *found < least || *found > most) {
+      fail(name, fmt::format("{} is not a whole number from {} to {}", shortText(*found), least, most));
+    }
+    return found->get<int>();
+  }
+
+  std::string word(const char* name) const {
+    const auto found = json_.find(name);
+    if (found == json_.end()) fail(name, "missing");
+    if (!found->is_string()) fail(name, fmt::format("{} is not a string", shortText(*found)));
+    return found->get<std::string>();
+  }
+
+  float number(const char* name, float least, float most) const {
+    const nlohmann::json& value = json_.at(name);
+    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most)) {
+      fail(name, fmt::format("{} is not a number from {} to {}", shortText(value), least, most));
+    }
+    return value.get<float>();
+  }
+
+  bool has(const char* name) const { return json_.contains(name); }
+
+  std::vector<float> numbers(const char* name, std::size_t count, bool half_float) const {
+    const int index = accessor(name);
+    const AccessorView view = accessors_.view(index);
+    constexpr int kUnsignedShort = 5123, kFloat = 5126;
+    const int type = half_float ? kUnsignedShort : kFloat;
+    if (view.component_type != type || view.components != 1 || view.normalized) {
+      fail(name, fmt::format("accessors[{}] must be SCALAR of component type {}", index, type));
+    }
+    if (view.count != count) {
+      fail(name, fmt::format("accessors[{}] has {} elements, {} were expected", index, view.count, count));
+    }
+    document_.budget.charge(count, sizeof(float), where_ + "." + name);
+    std::vector<float> values(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = half_float ? floatFromHalf(std::uint16_t(view.integer(i, 0))) : view.number(i, 0);
+      if (!std::isfinite(values[i]))
+        fail(name, fmt::format("element {} of accessors[{}] is not finite", i, index));
+    }
+    return values;
+  }
+
+  /// So many floats more that reading this takes.
+  void charge(const char* name, std::size_t count) const {
+    document_.budget.charge(count, sizeof(float), where_ + "." + name);
+  }
+
+  /// Whole numbers of 8 or 16 bits, each below `limit`.
+  std::vector<std::uint16_t> indices(const char* name, std::size_t count, int limit) const {
+    constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123;
+    const int index = accessor(name);
+    const AccessorView view = accessors_.view(index);
+    const bool known = view.component_type == kUnsignedByte || view.component_type == kUnsignedShort;
+    if (!known || view.components != 1 || view.normalized)
+      fail(name, fmt::format("accessors[{}] must be SCALAR of component type {} or {}", index, kUnsignedByte,
+                             kUnsignedShort));
+    if (view.count != count)
+      fail(name, fmt::format("accessors[{}] has {} elements, {} were expected", index, view.count, count));
+    document_.budget.charge(count, sizeof(std::uint16_t), where_ + "." + name);
+    std::vector<std::uint16_t> values(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = int(view.integer(i, 0));
+      if (value >= limit)
+        fail(name, fmt::format("element {} of accessors[{}] is {}; there are {}", i, index, value, limit));
+      values[i] = std::uint16_t(value);
+    }
+    return values;
+  }
+
+  [[noreturn]] void fail(const char* name, const std::string& message) const {
+    document_.fail(where_ + "." + name, message);
+  }
+
+ private:
+  int accessor(const char* name) const {
+    const std::size_t accessors = document_.array("accessors").size();
+    if (accessors == 0) fail(name, "the file has no accessors");
+    return integer(name, 0, int(std::min<std::size_t>(accessors, 0x7fffffffu)) - 1);
+  }
+  static std::string shortText(const nlohmann::json& value) {
+    return value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, 40);
+  }
+
+  GltfAccessors& accessors_;
+  GltfDocument& document_;
+  const nlohmann::json& json_;
+  const std::string& where_;
+};
+
+}  // namespace gloam

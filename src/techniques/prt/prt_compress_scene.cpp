@@ -1,0 +1,184 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Compresses the meshes of a scene and says what that costs in truth.
+#include <fmt/core.h>
+#include <gloam/compress.h>
+#include <gloam/lights.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/half_float.h"
+#include "techniques/prt/prt_compress.h"
+
+namespace gloam {
+namespace {
+
+// A cluster's mean and vectors are to take less room than the weights of its points.
+constexpr std::size_t kPointsANumber = 2;
+// The direct numbers light all three colours.
+const float kDirectScale = std::sqrt(3.0f);
+
+constexpr std::array<const char*, 6> kTestLights = {
+    "sky:mild",
+    "sky:noon",
+    "sky:sunset?azimuth=30",
+    "sky:studio?rotation=120",
+    "disc?azimuth=200&elevation=20&radius=10",
+    "disc?azimuth=80&elevation=70&radius=3&green=0.6&blue=0.3"};
+
+void checkOptions(const CompressOptions& options) {
+  const auto check = [](const char* name, int value, int low, int high) {
+    if (value < low || value > high)
+      throw Error(fmt::format("compression {}", name),
+                  fmt::format("{} is not from {} to {}", value, low, high));
+  };
+  check("clusters", options.clusters, 1, 4096);
+  check("vectors", options.vectors, 1, 144);
+  check("iterations", options.iterations, 1, 1000);
+}
+
+std::vector<float> gathered(const Transfer& transfer, std::size_t width) {
+  const auto direct = std::size_t(transfer.order * transfer.order), indirect = width - direct;
+  const std::size_t points = transfer.direct.size() / direct;
+  std::vector<float> values(points * width);
+  for (std::size_t p = 0; p < points; ++p) {
+    for (std::size_t i = 0; i < direct; ++i)
+      values[p * width + i] = kDirectScale * transfer.direct[p * direct + i];
+    if (indirect > 0) std::copy_n(&transfer.indirect[p * indirect], indirect, &values[p * width + direct]);
+  }
+  return values;
+}
+
+void roundToHalves(std::vector<float>& values) {
+  for (float& value : values) value = floatFromHalf(halfFromFloat(value));
+}
+
+std::shared_ptr<const CompressedTransfer> compressed(const Transfer& transfer, const CompressOptions& options,
+                                                     const Progress& progress) {
+  const std::size_t width = numbersOfPoint(transfer), direct = std::size_t(transfer.order * transfer.order);
+  const std::vector<float> values = gathered(transfer, width);
+  auto result = std::make_shared<CompressedTransfer>();
+  const std::size_t points = values.size() / width;
+  result->clusters =
+      int(std::clamp<std::size_t>(points / (kPointsANumber * width), 1, std::size_t(options.clusters)));
+  result->vectors = int(std::min<std::size_t>(std::size_t(options.vectors), width));
+  prt::ClusteredPca pca =
+      prt::clusteredPca(values, width, result->clusters, result->vectors, options.iterations, progress);
+  const auto unscale = [&](std::vector<float>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (i % width < direct) rows[i] /= kDirectScale;
+  };
+  unscale(pca.means);
+  unscale(pca.basis);
+  if (options.half_float) {
+    roundToHalves(pca.means);
+    roundToHalves(pca.basis);
+    roundToHalves(pca.weights);
+  }
+  result->means = std::move(pca.means);
+  result->basis = std::move(pca.basis);
+  result->weights = std::move(pca.weights);
+  result->cluster = std::move(pca.cluster);
+  return result;
+}
+
+struct Sums {
+  double error = 0.0, size = 0.0;
+  void add(double was, double is) {
+    error += (is - was) * (is - was);
+    size += was * was;
+  }
+  double relative() const { return size > 0.0 ? std::sqrt(error / size) : 0.0; }
+};
+
+/// Of every vertex, in each colour, under each light.
+void addIrradiance(const Transfer& before, const Transfer& after, const sh::ShRgb& light, Sums& sums) {
+  const auto n = std::size_t(before.order * before.order);
+  for (std::size_t p = 0; p < before.direct.size() / n; ++p) {
+    glm::dvec3 was(0.0), is(0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const glm::dvec3 l(light[int(i)]);
+      was += l * double(before.direct[p * n + i]);
+      is += l * double(after.direct[p * n + i]);
+      if (before.indirect.empty()) continue;
+      for (int c = 0; c < 3; ++c) {
+        was[c] += l[c] * double(before.indirect[3 * (p * n + i) + std::size_t(c)]);
+        is[c] += l[c] * double(after.indirect[3 * (p * n + i) + std::size_t(c)]);
+      }
+    }
+    for (int c = 0; c < 3; ++c) sums.add(was[c], is[c]);
+  }
+}
+
+void addNumbers(const std::vector<float>& before, const std::vector<float>& after, double weight,
+                Sums& sums) {
+  Sums mine;
+  for (std::size_t i = 0; i < before.size(); ++i) mine.add(double(before[i]), double(after[i]));
+  sums.error += weight * mine.error;
+  sums.size += weight * mine.size;
+}
+
+CompressReport reportOn(const Scene& before, const Scene& after, bool half_float) {
+  CompressReport report;
+  Sums numbers;
+  std::array<Sums, kTestLights.size()> lit;
+  std::vector<std::string> texts(kTestLights.begin(), kTestLights.end());
+  for (std::size_t m = 0; m < before.meshes.size(); ++m) {
+    const Transfer* was = before.meshes[m].transfer.get();
+    const Transfer* is = after.meshes[m].transfer.get();
+    if (was == nullptr) continue;
+    report.points += is->compressed->cluster.size();
+    report.bytes_before += (was->direct.size() + was->indirect.size()) * (half_float ? 2 : 4);
+    report.bytes += is->compressed->bytes(half_float);
+    addNumbers(was->direct, is->direct, 3.0, numbers);
+    addNumbers(was->indirect, is->indirect, 1.0, numbers);
+    tbb::parallel_for(std::size_t(0), kTestLights.size(), [&](std::size_t i) {
+      const AnimatedLights lights = AnimatedLights::parse(std::span(texts).subspan(i, 1));
+      addIrradiance(*was, *is, projectLights(lights.at(0.0f), was->order), lit[i]);
+    });
+  }
+  report.transfer_error = numbers.relative();
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    report.light_error += lit[i].relative() / double(lit.size());
+    if (lit[i].relative() < report.worst_light_error) continue;
+    report.worst_light_error = lit[i].relative();
+    report.worst_light = texts[i];
+  }
+  return report;
+}
+
+}  // namespace
+
+std::span<const char* const> compressionTestLights() {
+  return kTestLights;
+}
+
+Scene compressTransfer(const Scene& scene, const CompressOptions& options, const Progress& progress,
+                       CompressReport* report) {
+  checkOptions(options);
+  Scene result = scene;
+  double all = 0.0, done = 0.0;
+  for (const Mesh& mesh : scene.meshes) all += mesh.transfer ? double(mesh.transfer->direct.size()) : 0.0;
+  if (all == 0.0) throw Error("compression", "no mesh of this scene carries transfer");
+  for (Mesh& mesh : result.meshes) {
+    if (!mesh.transfer) continue;
+    const double share = double(mesh.transfer->direct.size()) / all;
+    Progress part{{}, progress.should_stop};
+    part.update = [&, from = done](double fraction, const std::string& what) {
+      progress.report(from + share * fraction, what);
+    };
+    done += share;
+    auto transfer = std::make_shared<Transfer>(*mesh.transfer);
+    transfer->compressed = compressed(*mesh.transfer, options, part);
+    expandTransfer(*transfer->compressed, *transfer);
+    mesh.transfer = std::move(transfer);
+  }
+  if (report != nullptr) *report = reportOn(scene, result, options.half_float);
+  return result;
+}
+
+}  // namespace gloam
