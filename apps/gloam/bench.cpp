@@ -3,33 +3,16 @@
 //
 // gloam bench: how long the passes of a technique take.
 #include <fmt/core.h>
-#include <gloam/renderer.h>
 
-#include <chrono>
-
-#include "bake_run.h"
+#include "bench_paper.h"
+#include "bench_scaling.h"
+#include "bench_stage.h"
 #include "bench_suites.h"
-#include "scene_inputs.h"
 #include "settings_file.h"
-#include "spheres_run.h"
-#include "technique_choice.h"
-#include "timings.h"
 #include "verb.h"
 
 namespace gloam::cli {
 namespace {
-
-constexpr int kWarmUpFrames = 2;  // shaders are compiled and memory is first touched there
-
-struct BenchChoice {
-  std::string subject;  ///< a technique, or a suite of bench_suites.h
-  SceneChoice scene{.name = "builtin:spheres"};
-  LightChoice light;
-  ViewChoice view{.size = {512, 512}};
-  TechniqueChoice technique;
-  std::string device;
-  int frames = 20;
-};
 
 std::string listedSubjects() {
   std::vector<std::string> names;
@@ -45,17 +28,13 @@ const BenchSuite* findSuite(const std::string& name) {
   return nullptr;
 }
 
-Timings measure(Renderer& renderer, const PosedScene& posed, const PosedCamera& camera,
-                const RenderOptions& options, int frames, Console& console) {
-  Timings timings;
+Timings measure(BenchStage& stage, int frames, Console& console) {
+  Timings timings, warm_up;
   const Progress progress = console.progress();
   for (int i = -kWarmUpFrames; i < frames; ++i) {
     if (interrupted()) throw Interrupted("interrupted: no figures");
     progress.report(double(i + kWarmUpFrames) / double(frames + kWarmUpFrames), "bench");
-    const auto started = std::chrono::steady_clock::now();
-    const RenderedFrame frame = renderer.render(posed, camera, options);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
-    if (i >= 0) timings.add(frame, took.count());
+    drawTimed(stage, stage.options, i < 0 ? warm_up : timings);
     console.release();
   }
   console.endProgress();
@@ -63,53 +42,50 @@ Timings measure(Renderer& renderer, const PosedScene& posed, const PosedCamera& 
 }
 
 int benchTechnique(const BenchChoice& choice, Console& console) {
-  const TechniqueInfo& info = technique(choice.subject);
-  Renderer renderer(choice.device);
-  Scene scene = loadSceneToDraw(choice.scene, console);
-  const Environment environment = chooseEnvironment(scene, choice.light, console);
-  if (info.needs_bake && !carriesTransfer(scene)) {
-    scene = bakeForDrawing(scene, choice.scene.name, choice.view.time_s, true, console);
-  }
-  renderer.setScene(scene);
-  renderer.setEnvironment(environment);
-  if (info.needs_spheres) {
-    const int count = settingsFor(info, choice.technique).integer("spheres");
-    renderer.setSpheres(scene, spheresForDrawing(scene, choice.scene.name, true, console, count));
-  }
-  const PosedScene posed = pose(scene, choice.view.time_s);
-  RenderOptions options;
-  options.width = choice.view.size.x, options.height = choice.view.size.y;
-  options.supersample = choice.view.supersample;
-  options.technique = info.name;
-  options.settings = settingsFor(info, choice.technique);
-  options.timings = true;
-  options.layers = false;
-  const PosedCamera camera = chooseCamera(posed, choice.view, console);
-  const Timings timings = measure(renderer, posed, camera, options, choice.frames, console);
-  checkValidation(renderer);
+  BenchStage stage = prepareBench(choice, console);
+  const Timings timings = measure(stage, choice.frames, console);
+  checkValidation(stage.renderer);
 
-  const std::string size = fmt::format("{}x{}", options.width, options.height);
+  const std::string size = fmt::format("{}x{}", stage.options.width, stage.options.height);
+  const std::string device = stage.renderer.device().name;
   if (console.json) {
-    console.print(jsonText({{"device", renderer.device().name},
-                            {"technique", info.name},
+    console.print(jsonText({{"device", device},
+                            {"technique", choice.subject},
                             {"scene", choice.scene.name},
                             {"size", size},
                             {"frames", choice.frames},
                             {"passes", timings.passesJson()},
                             {"frame_ms", timings.medianFrameMs()},
+                            {"cpu_ms", timings.medianCpuMs()},
                             {"memory_bytes", timings.memoryBytes()}}));
     return kDone;
   }
-  console.print(fmt::format("{}, {}, {}, {} frames; {}; {} of device memory", info.name, choice.scene.name,
-                            size, choice.frames, renderer.device().name,
+  console.print(fmt::format("{}, {}, {}, {} frames; {}; {} of device memory", choice.subject,
+                            choice.scene.name, size, choice.frames, device,
                             bytesText(double(timings.memoryBytes()))));
   for (const std::string& line : timings.table()) console.print(line);
   return kDone;
 }
 
-int runBench(const BenchChoice& choice, Console& console) {
-  if (const BenchSuite* suite = findSuite(choice.subject)) return suite->run(choice.scene.name, console);
-  return benchTechnique(choice, console);
+/// What --paper and --scaling measure where nothing else is said.
+void chooseDefaults(BenchChoice& choice, const CLI::App& app) {
+  if (choice.paper && app.get_option("SCENE")->empty()) choice.scene.name = "builtin:walker";
+  if ((choice.paper || choice.scaling) && app.get_option("--size")->empty()) choice.view.size = {1024, 1024};
+}
+
+int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
+  chooseDefaults(choice, app);
+  const BenchSuite* suite = findSuite(choice.subject);
+  if (choice.paper && choice.scaling) throw Error("--paper", "and --scaling: one at a time");
+  if (suite != nullptr && (choice.paper || choice.scaling))
+    throw Error(choice.paper ? "--paper" : "--scaling", fmt::format("'{}' is no technique", choice.subject));
+  if (choice.scaling && !app.get_option("SCENE")->empty())
+    throw Error("--scaling", fmt::format("measures a scene of its own; not {}", choice.scene.name));
+  if (!choice.output.empty() && !choice.paper && !choice.scaling)
+    throw Error("--output", "is a plot, which --paper and --scaling draw");
+  if (choice.paper) return benchPaper(choice, console);
+  if (choice.scaling) return benchScaling(choice, console);
+  return suite != nullptr ? suite->run(choice.scene.name, console) : benchTechnique(choice, console);
 }
 
 std::function<int()> declareBench(CLI::App& app, Console& console) {
@@ -131,6 +107,11 @@ std::function<int()> declareBench(CLI::App& app, Console& console) {
   addSceneOptions(app, choice->scene);
   addInteger(app, "--frames", choice->frames, {1, 100000}, "N", "measured, after two to warm up")
       ->default_str("20");
+  app.add_flag("--paper", choice->paper,
+               fmt::format("the figures of the technique's paper, ours beside theirs ({})",
+                           listed(techniquesWithPaper())));
+  app.add_flag("--scaling", choice->scaling, "time over the number of spheres, 10 to 2,000 (proxies)");
+  addOutput(app, choice->output, "FILE", "plot of --paper or --scaling: x.svg or x.csv");
   addDeviceOption(app, choice->device);
   addLightOptions(app, choice->light);
   addViewOptions(app, choice->view);
@@ -139,7 +120,7 @@ std::function<int()> declareBench(CLI::App& app, Console& console) {
   app.remove_option(app.get_option("--technique"));
   addConsoleOptions(app, console, true);
   addSettingsFile(app);
-  return [choice, &console] { return runBench(*choice, console); };
+  return [choice, &app, &console] { return runBench(*choice, app, console); };
 }
 
 }  // namespace
@@ -149,6 +130,7 @@ const Verb kBenchVerb = {
     "bench", "measures: times of each pass, or of a part that runs on the CPU",
     "gloam bench prt builtin:cornell --size 1024x1024 | medians and 95th percentiles of each pass\n"
     "gloam bench irradiance model.glb --env probe.exr --frames 50 --json | for programs\n"
+    "gloam bench proxies --paper -o operators.svg | the paper's figures, ours beside them; a plot\n"
     "gloam bench sh | spherical harmonics: nanoseconds an operation, one thread\n"
     "gloam bench bake bunny.obj | the baker's rays a second beside those of the tracing library alone\n",
     declareBench};

@@ -25,8 +25,9 @@ double quantile(std::vector<double> samples, double fraction) {
 }
 
 // A pass that runs several times in a frame (one shadow map a light) counts as one, with the sum of its times.
-void Timings::add(const RenderedFrame& frame, double frame_ms) {
+void Timings::add(const RenderedFrame& frame, double frame_ms, double cpu_ms) {
   frame_ms_.push_back(frame_ms);
+  cpu_ms_.push_back(cpu_ms);
   memory_bytes_ = std::max(memory_bytes_, frame.memory_bytes);
   std::map<std::string, double> sums;
   double all = 0.0;
@@ -51,6 +52,20 @@ double Timings::medianFrameMs() const {
 
 double Timings::medianPassesMs() const {
   return quantile(passes_ms_, 0.5);
+}
+
+double Timings::medianCpuMs() const {
+  return quantile(cpu_ms_, 0.5);
+}
+
+double Timings::medianMs(const std::string& prefix) const {
+  std::vector<double> sums(frame_ms_.size(), 0.0);
+  for (const Pass& pass : passes_) {
+    if (!pass.name.starts_with(prefix)) continue;
+    for (std::size_t i = 0; i < std::min(sums.size(), pass.milliseconds.size()); ++i)
+      sums[i] += pass.milliseconds[i];
+  }
+  return quantile(sums, 0.5);
 }
 
 Json Timings::passesJson() const {
@@ -78,6 +93,9 @@ std::vector<std::string> Timings::table() const {
   lines.push_back(fmt::format("{:<{}}  {:>10.3f}", "sum", width, sum));
   lines.push_back(fmt::format("{:<{}}  {:>10.3f}  {:>10.3f}", "frame", width, medianFrameMs(),
                               quantile(frame_ms_, 0.95)));
+  if (const double cpu_ms = medianCpuMs(); cpu_ms > 0.0)
+    lines.push_back(fmt::format("{:<{}}  {:>10.3f}  {:>10.3f}  of processor time, all threads together",
+                                "frame", width, cpu_ms, quantile(cpu_ms_, 0.95)));
   return lines;
 }
 

@@ -14,10 +14,13 @@ namespace gloam::cli {
 /// The times of many frames, pass by pass.
 class Timings {
  public:
-  /// `frame_ms`: wall clock of the whole call.
-  void add(const RenderedFrame& frame, double frame_ms);
+  /// `frame_ms`: wall clock of the whole call; `cpu_ms`: what all threads of this program computed in it.
+  void add(const RenderedFrame& frame, double frame_ms, double cpu_ms = 0.0);
 
   double medianFrameMs() const;
+  double medianCpuMs() const;
+  /// Of the passes whose names begin so, together.
+  double medianMs(const std::string& prefix) const;
   /// Of all passes of a frame together.
   double medianPassesMs() const;
   std::size_t memoryBytes() const { return memory_bytes_; }
@@ -32,7 +35,7 @@ class Timings {
     std::vector<double> milliseconds;
   };
   std::vector<Pass> passes_;
-  std::vector<double> frame_ms_, passes_ms_;
+  std::vector<double> frame_ms_, passes_ms_, cpu_ms_;
   std::size_t memory_bytes_ = 0;
 };
 

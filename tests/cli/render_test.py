@@ -215,6 +215,52 @@ class Bench(CliTest):
     def test_unknown_subject(self):
         self.refuse("bench", "no-such", says=["no-such", "irradiance"])
 
+    def check_rows(self, result):
+        self.assertEqual(set(result), {"device", "rows"})
+        self.assertTrue(result["device"])
+        self.assertTrue(result["rows"])
+        names = [row["name"] for row in result["rows"]]
+        self.assertEqual(len(names), len(set(names)))
+        for row in result["rows"]:
+            self.assertEqual(set(row), {"name", "ours", "paper", "unit", "better", "command"})
+            self.assertIn(row["better"], ["higher", "lower", "none"])
+            self.assertIsInstance(row["ours"], float)
+            self.assertTrue(row["unit"], row)
+            self.assertRegex(row["command"], r"^gloam bench \w+ .*--paper")
+
+    def test_figures_of_a_paper(self):
+        ball = self.path("ball.obj")
+        ball.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        small = ["ball.obj", "--ground", "--env", "sky:noon", "--proxies.spheres", "1", *SMALL, "--frames", "1"]
+        result = self.succeed_json("bench", "proxies", "--paper", *small, "-o", "plot.csv")
+        self.check_rows(result)
+        rows = {row["name"]: row for row in result["rows"]}
+        fit = rows["quadratic fit of D1: relative squared error"]
+        self.assertEqual((fit["paper"], fit["unit"]), (0.00016, "%"))
+        self.assertLess(fit["ours"], 2 * fit["paper"])
+        lines = self.path("plot.csv").read_text().splitlines()
+        self.assertEqual(len(lines), 101)
+        self.assertTrue(all(float(number) >= 0 for number in lines[-1].split(",")))
+        out = self.succeed("bench", "proxies", "--paper", *small, "-o", "plot.svg").out
+        for name in rows:
+            self.assertIn(name, out)
+        self.assertTrue(self.path("plot.svg").read_text().startswith("<svg"))
+
+    def test_time_over_the_number_of_spheres(self):
+        result = self.succeed_json("bench", "proxies", "--scaling", *SMALL, "--frames", "1")
+        self.assertEqual([point["proxies"] for point in result["points"]], [10, 50, 200, 500, 1000, 2000])
+        for point in result["points"]:
+            self.assertGreaterEqual(point["frame_ms"], point["light_ms"])
+
+    def test_figures_that_nobody_keeps(self):
+        self.refuse("bench", "irradiance", "--paper", says=["--paper", "irradiance", "proxies"])
+        self.refuse("bench", "irradiance", "--scaling", says=["--scaling", "spheres"])
+        self.refuse("bench", "sh", "--paper", says=["--paper", "sh"])
+        self.refuse("bench", "proxies", "--paper", "--scaling", says="--scaling")
+        self.refuse("bench", "proxies", BOX, "--scaling", says=["--scaling", BOX])
+        self.refuse("bench", "proxies", "-o", "x.svg", says=["--output", "--paper"])
+        self.refuse("bench", "proxies", "--scaling", "-o", "x.png", says=["x.png", ".svg"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,51 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What every measurement of a technique begins with.
+#pragma once
+
+#include <gloam/renderer.h>
+#include <gloam/spheres.h>
+
+#include <functional>
+
+#include "scene_inputs.h"
+#include "technique_choice.h"
+#include "timings.h"
+
+namespace gloam::cli {
+
+inline constexpr int kWarmUpFrames = 2;  ///< shaders are compiled and memory is first touched there
+
+struct BenchChoice {
+  std::string subject;  ///< a technique, or a suite of bench_suites.h
+  SceneChoice scene{.name = "builtin:spheres"};
+  LightChoice light;
+  ViewChoice view{.size = {512, 512}};
+  TechniqueChoice technique;
+  std::string device;
+  int frames = 20;
+  bool paper = false, scaling = false;
+  std::string output;  ///< of a plot
+};
+
+/// A technique made ready to draw.
+struct BenchStage {
+  Scene scene;
+  Environment environment;
+  SceneSpheres spheres;  ///< where the technique needs them
+  PosedScene posed;
+  PosedCamera camera;
+  RenderOptions options;
+  Renderer renderer;
+};
+/// Loads, bakes and fits as the technique needs. Throws Error.
+BenchStage prepareBench(const BenchChoice& choice, Console& console);
+
+/// Draws a frame and adds its times; milliseconds by the clock.
+double drawTimed(BenchStage& stage, const RenderOptions& options, Timings& timings);
+
+/// The command that was typed, for those who want to repeat it.
+std::string benchCommand(const BenchChoice& choice, const char* option);
+
+}  // namespace gloam::cli
