@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "image/limits.h"
+#include "scene/gltf_neighbourhood.h"
 #include "scene/gltf_parts.h"
 #include "scene/transforms.h"
 
@@ -243,6 +244,9 @@ void readNodes(GltfReading& reading) {
       node.light = reading.light_of[(*light)["light"].get<std::size_t>()];
     if (const Json* instancing = GltfDocument::extension(json, "EXT_mesh_gpu_instancing"))
       readInstances(reading, *instancing, node, placeOf(i) + ".extensions.EXT_mesh_gpu_instancing");
+    if (const Json* neighbourhood = GltfDocument::extension(json, kNeighbourhoodExtension))
+      node.neighbourhood = readNeighbourhood(reading.accessors, *neighbourhood,
+                                             placeOf(i) + ".extensions." + kNeighbourhoodExtension);
   }
   linkChildren(reading);
   chooseRoots(reading);

@@ -13,7 +13,7 @@ class Neighbourhood(CliTest):
     def test_what_moves_throws_shadow_on_others(self):
         result = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", "auto", "-o", "a.glb")
         self.assertTrue(result["apart"])
-        self.assertEqual([grid["object"] for grid in result["neighbourhoods"]], ["wheel", "ball"])
+        self.assertEqual([grid["object"] for grid in result["neighbourhoods"]], ["vane", "ball"])
         for grid in result["neighbourhoods"]:
             self.assertEqual(max(grid["grid"]), 6)
             self.assertTrue(0 < grid["error"] < 0.5, grid)
@@ -25,7 +25,7 @@ class Neighbourhood(CliTest):
         self.assertLess(light[1], 0.99 * light[0])
 
     def test_a_name_a_size_and_halves(self):
-        command = ["bake", SCENE, *QUICK, "--neighbourhood", "wheel", "--neighbourhood-reach", "0.5"]
+        command = ["bake", SCENE, *QUICK, "--neighbourhood", "vane", "--neighbourhood-reach", "0.5"]
         result = self.succeed_json(*command, "--grid", "4x3x5", "-o", "a.glb")
         self.assertEqual(result["neighbourhoods"][0]["grid"], [4, 3, 5])
         half = self.succeed_json(*command, "--grid", "4x3x5", "--half", "-o", "b.glb")
@@ -33,21 +33,21 @@ class Neighbourhood(CliTest):
         self.assertIn("effect", self.succeed("bake", SCENE, "--kind", "du", "--order", "3", "--grid", "5", "-o", "c.glb").err)
 
     def test_the_estimate_writes_nothing(self):
-        estimate = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", "wheel,ball", "--estimate")
+        estimate = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", "vane,ball", "--estimate")
         self.assertEqual(len(estimate["neighbourhoods"]), 2)
         self.assertTrue(all(grid["memory_bytes"] > grid["file_bytes"] > 0 for grid in estimate["neighbourhoods"]))
-        self.assertIn("neighbourhood of wheel: 6 x", self.succeed("bake", SCENE, *QUICK, "--neighbourhood", "wheel", "--estimate").out)
+        self.assertIn("neighbourhood of vane: 6 x", self.succeed("bake", SCENE, *QUICK, "--neighbourhood", "vane", "--estimate").out)
         self.assertEqual(list(self.folder.glob("*.glb")), [])
 
     def test_bad_input(self):
         bake = ["bake", SCENE, *QUICK, "-o", "a.glb", "--neighbourhood"]
-        self.refuse(*bake, "whel", says=["--neighbourhood", "'whel'", "wheel", "ground"])
+        self.refuse(*bake, "vnae", says=["--neighbourhood", "'vnae'", "vane", "ground"])
         self.refuse("bake", "builtin:cornell?detail=0.25", "--neighbourhood", "auto", "-o", "a.glb", says=["auto", "name an object"])
-        self.refuse(*bake, "wheel", "--grid", "3", says="--grid")
-        self.refuse(*bake, "wheel", "--grid", "8x8", says="--grid")
-        self.refuse(*bake, "wheel", "--grid", "8x8x1", says="--grid")
-        self.refuse(*bake, "wheel", "--neighbourhood-reach", "-1", says="--neighbourhood-reach")
-        self.refuse(*bake, "wheel", "--order", "6", "--grid", "128x128x128", says=["128 x 128 x 128", "memory"])
+        self.refuse(*bake, "vane", "--grid", "3", says="--grid")
+        self.refuse(*bake, "vane", "--grid", "8x8", says="--grid")
+        self.refuse(*bake, "vane", "--grid", "8x8x1", says="--grid")
+        self.refuse(*bake, "vane", "--neighbourhood-reach", "-1", says="--neighbourhood-reach")
+        self.refuse(*bake, "vane", "--order", "6", "--grid", "128x128x128", says=["128 x 128 x 128", "memory"])
         self.assertEqual(list(self.folder.iterdir()), [])
 
 
