@@ -6,7 +6,11 @@
 #include <gloam/bake.h>
 #include <image/atomic_file.h>
 
+#include "bake_limits.h"
+#include "bake_neighbourhood.h"
+#include "bake_pca.h"
 #include "bake_run.h"
+#include "bake_surfaces.h"
 #include "json.h"
 #include "output.h"
 #include "scene_inputs.h"
@@ -20,6 +24,10 @@ namespace fs = std::filesystem;
 struct BakeChoice {
   SceneChoice scene;
   BakeOptions options;
+  LimitChoice limits;
+  SurfaceChoice surfaces;
+  PcaChoice pca;
+  NeighbourhoodChoice neighbourhood;
   std::string output, kind = "di", glossy = "auto";
   bool half_float = false, resume = true, estimate_only = false;
   std::vector<const CLI::Option*> of_rays, of_bounces, of_gloss;  ///< options that not all bakes use
@@ -37,9 +45,14 @@ GlossyMeshes glossyOf(const std::string& glossy) {
 }
 
 Json estimateJson(const BakeEstimate& estimate) {
-  return {{"vertices", estimate.vertices},         {"glossy_vertices", estimate.glossy_vertices},
-          {"triangles", estimate.triangles},       {"rays", estimate.rays},
-          {"memory_bytes", estimate.memory_bytes}, {"file_bytes", estimate.file_bytes}};
+  return {{"vertices", estimate.vertices},
+          {"glossy_vertices", estimate.glossy_vertices},
+          {"texels", estimate.texels},
+          {"triangles", estimate.triangles},
+          {"rays", estimate.rays},
+          {"memory_bytes", estimate.memory_bytes},
+          {"least_memory_bytes", estimate.least_memory_bytes},
+          {"file_bytes", estimate.file_bytes}};
 }
 
 // Found before hours of work, not after.
@@ -90,7 +103,8 @@ Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& 
   }
 }
 
-void printResult(const BakeChoice& choice, const BakeReport& report, Console& console) {
+void printResult(const BakeChoice& choice, const BakeReport& report, const TessellateReport& split,
+                 const Json& neighbourhoods, const CompressReport& compressed, Console& console) {
   const double rate = report.first_pass_s > 0.0 ? double(report.rays) / report.first_pass_s : 0.0;
   std::error_code ignored;
   const auto size = double(fs::file_size(choice.output, ignored));
@@ -99,6 +113,7 @@ void printResult(const BakeChoice& choice, const BakeReport& report, Console& co
                                choice.output, bytesText(size), countText(report.vertices),
                                durationText(report.first_pass_s), rate / 1e6, durationText(report.bounces_s),
                                report.resumed ? "; resumed" : ""));
+    remarkDirections(choice.options, report, console);
     if (report.glossy_points > 0) {
       console.remark(fmt::format("{} points have matrices; prt.glossy=cheap would err by {:.1f} %",
                                  countText(report.glossy_points), 100.0 * report.cheap_error));
@@ -114,13 +129,20 @@ void printResult(const BakeChoice& choice, const BakeReport& report, Console& co
                 {"bounces", options.kind == TransferKind::kInterreflected ? options.bounces : 0},
                 {"directions", options.directions},
                 {"half_float", choice.half_float},
+                {"pca", pcaJson(choice.pca, compressed)},
                 {"points", report.vertices},
                 {"rays", report.rays},
                 {"bounce_rays", report.bounce_rays},
                 {"first_pass_s", report.first_pass_s},
                 {"bounces_s", report.bounces_s},
                 {"rays_per_s", rate},
+                {"bounce_s", report.bounce_s},
+                {"adaptive", directionsJson(options, report)},
                 {"resumed", report.resumed},
+                {"apart", options.apart},
+                {"texels", report.texels},
+                {"tessellated", tessellateJson(choice.surfaces, split)},
+                {"neighbourhoods", neighbourhoods},
                 {"glossy_points", report.glossy_points},
                 {"cheap_error", report.glossy_points > 0 ? Json(report.cheap_error) : Json(nullptr)},
                 {"file_bytes", size}}));
@@ -130,23 +152,41 @@ int runBake(BakeChoice choice, Console& console) {
   if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_prt.glb";
   choice.options.kind = kindOf(choice.kind);
   choice.options.glossy = glossyOf(choice.glossy);
+  applyLimits(choice.options, choice.limits, console);
   if (!choice.estimate_only) checkOutput(choice);
-  const Scene scene = loadSceneToDraw(choice.scene, console);
+  Scene scene = loadSceneToDraw(choice.scene, console);
   remarkUnusedOptions(choice, console);
-  remarkMotion(scene, console);
+  remarkUnusedSurfaceOptions(choice.options, choice.surfaces, console);
+  const std::vector<int> carriers =
+      chooseNeighbourhoods(scene, choice.neighbourhood, choice.options, console);
+  if (!choice.options.apart) remarkMotion(scene, console);
+  TessellateReport split;
+  scene = tessellatedAsChosen(std::move(scene), choice.options, choice.surfaces, console, split);
   const BakeEstimate estimate = estimateBake(scene, choice.options);
+  if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
+  const Json grids =
+      estimateNeighbourhoods(scene, carriers, choice.neighbourhood, console, choice.estimate_only);
   if (choice.estimate_only) {
-    console.print(console.json ? jsonText(estimateJson(estimate)) : estimateText(estimate));
+    Json json = estimateJson(estimate);
+    json["neighbourhoods"] = grids;
+    if (console.json) console.print(jsonText(json));
     return kDone;
   }
+  checkMemory(choice.options, estimate);
   choice.options.checkpoint = choice.output + ".checkpoint";
+  choice.neighbourhood.options.checkpoint = choice.options.checkpoint;
   console.remark(estimateText(estimate));
   BakeReport report;
-  const Scene baked = bakeWithCheckpoint(scene, choice, console, report);
+  Scene baked = bakeWithCheckpoint(scene, choice, console, report);
   console.endProgress();
+  const Json neighbourhoods =
+      bakeNeighbourhoods(baked, carriers, choice.neighbourhood, choice.resume, console);
+  CompressReport compressed;
+  baked = compressedAsChosen(std::move(baked), choice.pca, choice.half_float, console, compressed);
   writeGlb(baked, choice.output, {.half_float = choice.half_float});
   remarkLostLight(baked, console);
-  printResult(choice, report, console);
+  for (const std::string& warning : report.warnings) console.remark(warning);
+  printResult(choice, report, split, neighbourhoods, compressed, console);
   return kDone;
 }
 
@@ -169,6 +209,11 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
       add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass"));
   choice.of_bounces.push_back(
       add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass"));
+  app.add_flag(
+         "--apart", options.apart,
+         "each root node is an object of its own, which shadows itself alone: objects may move against one "
+         "another (prt.local_light)")
+      ->group("Transfer");
   addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
       ->default_str("0")
       ->group("Transfer");
@@ -196,6 +241,10 @@ std::function<int()> declareBake(CLI::App& app, Console& console) {
   addOutput(app, choice->output, "FILE", "the baked scene, a .glb; by default the scene's name and _prt.glb");
   addSimulatorOptions(app, *choice);
   addGlossyOptions(app, *choice);
+  addLimitOptions(app, choice->options, choice->limits);
+  addSurfaceOptions(app, choice->options, choice->surfaces);
+  addNeighbourhoodOptions(app, choice->neighbourhood);
+  addPcaOption(app, choice->pca);
   app.add_flag("--half", choice->half_float, "store transfer as 16-bit floats: half the size")
       ->group("Output");
   addInteger(app, "--threads", choice->options.threads, {0, 1024}, "N",
@@ -217,6 +266,9 @@ const Verb kBakeVerb = {
     "gloam bake builtin:cornell --bounces 6 --order 4 --half -o cornell.glb | more bounces, a smaller file\n"
     "gloam bake teapot.glb --ground --glossy on --bounces 3 -o teapot.glb | gloss that is shadowed and "
     "reflects, too\n"
+    "gloam bake builtin:gallery --texels-per-metre 16 -o gallery.glb | light kept in lightmaps\n"
+    "gloam bake room.glb --tessellate 0.05 -o room_prt.glb | more vertices where shadows need them\n"
+    "gloam bake builtin:passing --neighbourhood auto -o passing.glb | what moves shadows what passes it\n"
     "gloam bake statue.glb --estimate | how much memory and how large a file\n"
     "gloam bake spheres statue.glb | fits spheres instead, for what moves: gloam bake spheres --help\n"
     "gloam bake statue.glb -o statue_prt.glb | after Ctrl-C the same command goes on where it stopped\n",

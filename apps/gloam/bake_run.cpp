@@ -95,10 +95,12 @@ std::string estimateText(const BakeEstimate& estimate) {
   const std::string matrices = estimate.glossy_vertices > 0 ? fmt::format(", {} of them with matrices",
                                                                           countText(estimate.glossy_vertices))
                                                             : "";
-  return fmt::format("{} vertices{}, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
-                     countText(estimate.vertices), matrices, countText(estimate.triangles),
-                     double(estimate.rays), bytesText(double(estimate.memory_bytes)),
-                     bytesText(double(estimate.file_bytes)));
+  const std::string texels =
+      estimate.texels > 0 ? fmt::format(", {} texels", countText(estimate.texels)) : "";
+  return fmt::format(
+      "{} vertices{}{}, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
+      countText(estimate.vertices), matrices, texels, countText(estimate.triangles), double(estimate.rays),
+      bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
 }
 
 void remarkMotion(const Scene& scene, Console& console) {

@@ -80,13 +80,19 @@ Json animationsJson(const Scene& scene) {
 }
 
 Json transferJson(const Scene& scene) {
-  std::size_t meshes = 0, vertices = 0, glossy_vertices = 0, floats = 0;
+  std::size_t meshes = 0, vertices = 0, glossy_vertices = 0, floats = 0, lightmaps = 0, texels = 0;
   Json glossy = nullptr;
   const Transfer* any = nullptr;
   for (const Mesh& mesh : scene.meshes) {
     if (!mesh.transfer) continue;
     any = mesh.transfer.get();
-    ++meshes, vertices += mesh.vertexCount();
+    ++meshes;
+    if (any->ofTexels()) {
+      ++lightmaps;
+      texels += std::size_t(any->texel_width) * std::size_t(any->texel_height);
+    } else {
+      vertices += mesh.vertexCount();
+    }
     floats += any->direct.size() + any->indirect.size();
     const GlossyTransfer& own = any->glossy;
     if (own.empty()) continue;
@@ -106,6 +112,8 @@ Json transferJson(const Scene& scene) {
           {"directions", any->directions},
           {"meshes", meshes},
           {"vertices", vertices},
+          {"lightmaps", lightmaps},
+          {"texels", texels},
           {"glossy", glossy},
           {"bytes_in_memory", floats * sizeof(float)}};
 }

@@ -41,7 +41,7 @@ struct BakeOptions {
   /// `texels_per_metre`, then `texels` at most (0: 4096). Both 0: none.
   int texels = 0;
   float texels_per_metre = 0.0f;
-  int uv_set = kNone;  ///< index into Mesh::uv_sets; kNone: the second where it will do, else the first
+  int uv_set = 1;  ///< index into Mesh::uv_sets, 0 to 7
   /// Lobes that matrices cannot show (sharper than their bands, or of meshes without matrices) are followed ray by ray on the
   /// way: mirrors and metals throw caustics. Of materials that mirror 10 % or more somewhere; kInterreflected only.
   bool caustics = true;
@@ -106,7 +106,7 @@ struct TessellateOptions {
   float error = 0.05f;
   std::size_t max_vertices = 1000000;  ///< of the whole scene; what was not split by then stays
   int order = 5;                       ///< bands in which the difference is measured, 3 to 6
-  int directions = 1024;               ///< rays by which it is measured at a place, 256 to 65536
+  int directions = 0;                  ///< rays by which it is measured at a place, 256 to 65536; 0: by `error`
   int threads = 0;                     ///< as BakeOptions
   float time_s = 0.0f;
 };

@@ -28,23 +28,28 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Where the texture coordinates of each slot begin; sets that slots share are stored once.
-glm::uvec4 appendUvs(VertexArrays& arrays, const Mesh& mesh, const Material& material) {
+/// Where the texture coordinates of each slot, and of the lightmap, begin; sets that they share are stored once.
+glm::uvec4 appendUvs(VertexArrays& arrays, const Mesh& mesh, const Material& material,
+                     std::uint32_t& first_lightmap_uv) {
   std::vector<std::uint32_t> first_of_set(mesh.uv_sets.size(), kAbsent);
   glm::uvec4 first(kAbsent);
-  const auto slots = textureSlots(material);
-  for (int s = 0; s < kTextureSlots; ++s) {
-    const TextureSlot& slot = *slots[std::size_t(s)];
-    if (!slot || slot.uv_set < 0 || std::size_t(slot.uv_set) >= mesh.uv_sets.size()) continue;
-    const auto& set = mesh.uv_sets[std::size_t(slot.uv_set)];
-    if (set.size() != mesh.vertexCount()) continue;
-    std::uint32_t& place = first_of_set[std::size_t(slot.uv_set)];
+  const auto firstOf = [&](int uv_set) {
+    if (uv_set < 0 || std::size_t(uv_set) >= mesh.uv_sets.size()) return kAbsent;
+    const auto& set = mesh.uv_sets[std::size_t(uv_set)];
+    if (set.size() != mesh.vertexCount()) return kAbsent;
+    std::uint32_t& place = first_of_set[std::size_t(uv_set)];
     if (place == kAbsent) {
       place = static_cast<std::uint32_t>(arrays.uvs.size());
       append(arrays.uvs, set);
     }
-    first[s] = place;
+    return place;
+  };
+  const auto slots = textureSlots(material);
+  for (int s = 0; s < kTextureSlots; ++s) {
+    const TextureSlot& slot = *slots[std::size_t(s)];
+    if (slot) first[s] = firstOf(slot.uv_set);
   }
+  if (mesh.transfer && mesh.transfer->ofTexels()) first_lightmap_uv = firstOf(mesh.transfer->uv_set);
   return first;
 }
 
@@ -76,7 +81,7 @@ GpuMesh appendMesh(VertexArrays& arrays, const Mesh& mesh, const Material& mater
   result.row.first_index = static_cast<std::uint32_t>(arrays.indices.size());
   result.row.material = static_cast<std::uint32_t>(mesh.material);
   result.row.first_color = appendColors(arrays, mesh);
-  result.row.first_uv = appendUvs(arrays, mesh, material);
+  result.row.first_uv = appendUvs(arrays, mesh, material, result.first_lightmap_uv);
   result.bounds_min = glm::vec3(std::numeric_limits<float>::max());
   result.bounds_max = -result.bounds_min;
   for (const glm::vec3& p : mesh.positions) {
@@ -113,7 +118,7 @@ MaterialRow rowOf(const Material& material) {
 
 }  // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const Scene& scene) : device_(device), textures_(device, scene) {
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene) : device_(device), textures_(device, scene), carriers_(scene) {
   VertexArrays arrays;
   std::vector<MeshRow> rows;
   for (const Mesh& mesh : scene.meshes) {

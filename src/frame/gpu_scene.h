@@ -6,6 +6,7 @@
 
 #include <gloam/scene.h>
 
+#include "frame/carriers.h"
 #include "frame/frame_shared.h"
 #include "frame/textures.h"
 #include "gpu/frame_graph.h"
@@ -19,7 +20,8 @@ struct GpuMesh {
   std::uint32_t vertex_count = 0, index_count = 0;
   bool textured = false, alpha_mask = false, vertex_colors = false;
   glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
-  std::shared_ptr<const Transfer> transfer;  ///< null unless baked
+  std::shared_ptr<const Transfer> transfer;   ///< null unless baked
+  std::uint32_t first_lightmap_uv = kAbsent;  ///< in uvs(), of transfer that is of texels
 };
 
 /// Instances of one mesh that are drawn together: places first_place … in the order of drawing.
@@ -27,6 +29,9 @@ struct DrawRange {
   std::uint32_t mesh = 0, first_place = 0, count = 0;
   glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};  ///< in the world
 };
+
+/// True where its box lies wholly outside one of a view's sides (tested in clip space, w > 0 or not).
+bool isOutside(const DrawRange& range, const glm::mat4& clip_from_world);
 
 class GpuScene {
  public:
@@ -43,6 +48,10 @@ class GpuScene {
   /// Of the last pose(), by object id - 1.
   const std::vector<InstanceRow>& instances() const { return rows_; }
   const std::vector<DrawRange>& draws() const { return draws_; }
+  /// Nodes that carry neighbourhood transfer, where they were at the last pose().
+  const Carriers& carriers() const { return carriers_; }
+  /// The instance that stands at a place of the order of drawing.
+  std::uint32_t instanceAt(std::uint32_t place) const { return order_[place]; }
   bool deformed(std::size_t instance) const { return rows_[instance].first_vertex >= static_vertices_; }
   glm::vec3 boundsMin() const { return bounds_min_; }
   glm::vec3 boundsMax() const { return bounds_max_; }
@@ -53,7 +62,9 @@ class GpuScene {
   // Bindings by these names: positions, normals, tangents, uvs, colors, indices, meshes, instances,
   // draw_order; a draw's own are `material` (a uniform block) and the maps.
   gpu::BufferRef positions() const { return positions_; }
+  gpu::BufferRef normals() const { return normals_; }
   gpu::BufferRef indices() const { return indices_; }
+  gpu::BufferRef uvs() const { return uvs_; }
   gpu::BufferRef instanceRows() const { return instance_rows_; }
   gpu::BufferRef meshRows() const { return mesh_rows_; }
   /// The MaterialRow of one material.
@@ -106,6 +117,7 @@ class GpuScene {
 
   gpu::Device& device_;
   Textures textures_;
+  Carriers carriers_;
   std::vector<GpuMesh> meshes_;
   gpu::Buffer positions_, normals_, tangents_, uvs_, colors_, indices_, mesh_rows_, material_rows_;
   std::uint32_t static_vertices_ = 0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 
@@ -43,6 +44,20 @@ Box worldBox(const Instance& instance, const GpuMesh& mesh) {
 }
 
 }  // namespace
+
+bool isOutside(const DrawRange& range, const glm::mat4& clip_from_world) {
+  std::array<int, 6> outside{};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? range.bounds_max.x : range.bounds_min.x,
+                      corner & 2 ? range.bounds_max.y : range.bounds_min.y,
+                      corner & 4 ? range.bounds_max.z : range.bounds_min.z);
+    const glm::vec4 clip = clip_from_world * glm::vec4(p, 1.0f);
+    const std::array<bool, 6> sides = {clip.x > clip.w, clip.x<-clip.w, clip.y> clip.w,
+                                       clip.y<-clip.w, clip.z> clip.w, clip.z < 0.0f};
+    for (std::size_t side = 0; side < sides.size(); ++side) outside[side] += sides[side];
+  }
+  return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
+}
 
 void GpuScene::checkPose(const PosedScene& posed) const {
   for (std::size_t i = 0; i < posed.instances.size(); ++i) {
@@ -170,6 +185,7 @@ void GpuScene::pose(gpu::FrameGraph& graph, const PosedScene& posed) {
   layOut(posed);
   turn_ = has_previous_ ? 1 - turn_ : 0;
   makeRows(posed);
+  carriers_.pose(posed);
   updateDraws(posed);
   copyDeformed(graph, posed);
   has_previous_ = true;

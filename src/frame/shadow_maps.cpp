@@ -3,28 +3,12 @@
 #include "frame/shadow_maps.h"
 
 #include <algorithm>
-#include <array>
 
 #include "shaders/frame_shaders.h"
 
 namespace gloam::frame {
 
 namespace {
-
-/// True where a box lies wholly outside one of the view's sides (tested in clip space, w > 0 or not).
-bool isOutside(const DrawRange& range, const glm::mat4& clip_from_world) {
-  std::array<int, 6> outside{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? range.bounds_max.x : range.bounds_min.x,
-                      corner & 2 ? range.bounds_max.y : range.bounds_min.y,
-                      corner & 4 ? range.bounds_max.z : range.bounds_min.z);
-    const glm::vec4 clip = clip_from_world * glm::vec4(p, 1.0f);
-    const std::array<bool, 6> sides = {clip.x > clip.w, clip.x<-clip.w, clip.y> clip.w,
-                                       clip.y<-clip.w, clip.z> clip.w, clip.z < 0.0f};
-    for (std::size_t side = 0; side < sides.size(); ++side) outside[side] += sides[side];
-  }
-  return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
-}
 
 bool anyDrawn(const GpuScene& scene, bool masked) {
   return std::any_of(scene.draws().begin(), scene.draws().end(),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gltf_transfer.h"
 
+#include <gloam/compress.h>
 #include <gloam/sh.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +47,22 @@ Scene glossyScene(int bounces) {
   for (std::size_t i = 0; i < vertices * 16; ++i) glossy.visibility.push_back(std::sin(0.7f * float(i)));
   for (std::size_t i = 0; i < vertices * 36 * 3 && bounces > 0; ++i)
     glossy.indirect.push_back(std::cos(0.3f * float(i)));
+  scene.meshes[0].transfer = transfer;
+  return scene;
+}
+
+/// Compressed, in three clusters of two vectors.
+Scene compressedScene(int bounces) {
+  Scene scene = bakedScene(bounces);
+  auto transfer = std::make_shared<Transfer>(*scene.meshes[0].transfer);
+  CompressedTransfer pca{.clusters = 3, .vectors = 2};
+  const std::size_t width = bounces > 0 ? 36 : 9, vertices = scene.meshes[0].vertexCount();
+  for (std::size_t i = 0; i < 3 * width; ++i) pca.means.push_back(std::sin(0.7f * float(i)));
+  for (std::size_t i = 0; i < 6 * width; ++i) pca.basis.push_back(std::cos(0.3f * float(i)));
+  for (std::size_t i = 0; i < 2 * vertices; ++i) pca.weights.push_back(0.2f * std::sin(float(i)));
+  for (std::size_t v = 0; v < vertices; ++v) pca.cluster.push_back(std::uint16_t(v * v % 3));
+  expandTransfer(pca, *transfer);
+  transfer->compressed = std::make_shared<const CompressedTransfer>(std::move(pca));
   scene.meshes[0].transfer = transfer;
   return scene;
 }
@@ -170,6 +187,83 @@ TEST(Transfer, FollowsVerticesThatTheReaderDrops) {
   }
 }
 
+/// Transfer of a lightmap of 5 x 3 texels.
+Scene texelScene() {
+  Scene scene = bakedScene(0);
+  Mesh& mesh = scene.meshes[0];
+  mesh.uv_sets.resize(2);
+  for (const glm::vec3& p : mesh.positions)
+    mesh.uv_sets[1].emplace_back(0.5f + 0.1f * p.x, 0.5f + 0.1f * p.z);
+  auto transfer = std::make_shared<Transfer>(*mesh.transfer);
+  transfer->texel_width = 5;
+  transfer->texel_height = 3;
+  transfer->uv_set = 1;
+  transfer->bounces = 1;
+  transfer->direct.clear();
+  for (int i = 0; i < 15 * 9; ++i) transfer->direct.push_back(std::sin(float(i)));
+  for (int i = 0; i < 15 * 27; ++i) transfer->indirect.push_back(std::cos(float(i)));
+  mesh.transfer = transfer;
+  return scene;
+}
+
+TEST(Transfer, TexelsComeBack) {
+  for (const bool half_float : {false, true}) {
+    const Scene scene = texelScene();
+    gloam::writeGlb(scene, temporary(), {half_float});
+    Glb glb = readGlb(temporary());
+    EXPECT_EQ(extensionOf(glb)["version"], 2) << "older readers know no texels";
+    const Scene again = loadScene(temporary().string());
+    fs::remove(temporary());
+    const Transfer &a = *scene.meshes[0].transfer, &b = *again.meshes[0].transfer;
+    EXPECT_EQ(b.texel_width, 5);
+    EXPECT_EQ(b.texel_height, 3);
+    EXPECT_EQ(b.uv_set, 1);
+    ASSERT_EQ(b.direct.size(), a.direct.size());
+    ASSERT_EQ(b.indirect.size(), a.indirect.size());
+    for (std::size_t i = 0; i < a.direct.size(); ++i)
+      EXPECT_EQ(b.direct[i], half_float ? floatFromHalf(halfFromFloat(a.direct[i])) : a.direct[i]);
+    if (!half_float) {
+      EXPECT_EQ(b.indirect, a.indirect);
+    }
+  }
+  Scene vertices = bakedScene(0);
+  gloam::writeGlb(vertices, temporary());
+  Glb glb = readGlb(temporary());
+  EXPECT_EQ(extensionOf(glb)["version"], 1);
+  fs::remove(temporary());
+}
+
+// Vertices that no triangle uses are dropped; the lightmap is not of vertices.
+TEST(Transfer, TexelsStayWhenVerticesAreDropped) {
+  Scene scene = texelScene();
+  Mesh& mesh = scene.meshes[0];
+  mesh.indices.resize(mesh.indices.size() / 2 / 3 * 3);
+  gloam::writeGlb(scene, temporary());
+  const Scene again = loadScene(temporary().string());
+  fs::remove(temporary());
+  ASSERT_LT(again.meshes[0].vertexCount(), mesh.vertexCount());
+  EXPECT_EQ(again.meshes[0].transfer->direct, mesh.transfer->direct);
+  EXPECT_EQ(again.meshes[0].transfer->indirect, mesh.transfer->indirect);
+}
+
+TEST(Transfer, ErrorsOfTexelsNameTheField) {
+  const auto says = [](const char* part, const std::function<void(Json&)>& change) {
+    const std::string message = messageAfter([&](Glb& glb) { change(extensionOf(glb)); }, texelScene());
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  says("no error", [](Json&) {});
+  says(".texels.width: missing", [](Json& j) { j["texels"].erase("width"); });
+  says(".texels.height: 0 is not", [](Json& j) { j["texels"]["height"] = 0; });
+  says(".texels.width: 100000000 is not", [](Json& j) { j["texels"]["width"] = 100000000; });
+  says(".direct: accessors[", [](Json& j) { j["texels"]["height"] = 4; });
+  says(".direct: accessors[", [](Json& j) { j["texels"]["width"] = 65536, j["texels"]["height"] = 65536; });
+  says(".texels.texCoord: the primitive has no TEXCOORD_3", [](Json& j) { j["texels"]["texCoord"] = 3; });
+  says("belongs to other texture coordinates", [](Json& j) { j["texels"]["texCoord"] = 0; });
+  says("belongs to other texture coordinates", [](Json& j) { j["texels"]["uvs"] = "00000000"; });
+  says(".texels: an object was expected", [](Json& j) { j["texels"] = 5; });
+  says(".direct: accessors[", [](Json& j) { j["version"] = 1; });
+}
+
 TEST(Transfer, ChecksumIsThatOfZlib) {
   // crc32(b"") = 0; crc32 of the bytes of the floats 1, 2, 3 and the indices 0, 1, 2 (zlib.crc32 in Python).
   EXPECT_EQ(geometryChecksum({}, {}), "00000000");
@@ -196,12 +290,65 @@ TEST(Transfer, TheExampleInTheDocumentIsRight) {
   EXPECT_NEAR(irradiance, 1.0625f, 1e-5f);
 }
 
+TEST(Transfer, CompressedComesBackExpanded) {
+  for (const int bounces : {0, 2}) {
+    const Scene scene = compressedScene(bounces);
+    const Transfer& a = *scene.meshes[0].transfer;
+    const std::size_t width = bounces > 0 ? 36 : 9, v = 5, k = a.compressed->cluster[v];
+    // One number by hand: coefficient 4 of vertex 5, then its green bounce.
+    const auto number = [&](std::size_t d) {
+      const CompressedTransfer& pca = *a.compressed;
+      return pca.means[k * width + d] + pca.weights[2 * v] * pca.basis[2 * k * width + d] +
+             pca.weights[2 * v + 1] * pca.basis[(2 * k + 1) * width + d];
+    };
+    EXPECT_NEAR(a.direct[9 * v + 4], number(4), 1e-6f);
+    if (bounces > 0) EXPECT_NEAR(a.indirect[3 * (9 * v + 4) + 1], number(9 + 3 * 4 + 1), 1e-6f);
+    gloam::writeGlb(scene, temporary());
+    const Scene again = loadScene(temporary().string());
+    fs::remove(temporary());
+    const Transfer& b = *again.meshes[0].transfer;
+    EXPECT_EQ(a.direct, b.direct);
+    EXPECT_EQ(a.indirect, b.indirect);
+    ASSERT_TRUE(b.compressed);
+    EXPECT_EQ(a.compressed->cluster, b.compressed->cluster);
+  }
+}
+
+TEST(Transfer, CompressedErrorsNameTheField) {
+  const auto expect = [](const std::function<void(Glb&, Json&)>& breakIt, const char* part) {
+    const std::string message =
+        messageAfter([&](Glb& glb) { breakIt(glb, extensionOf(glb)["pca"]); }, compressedScene(2));
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  };
+  const auto bytesOf = [](Glb& glb, const Json& accessor) -> char* {
+    const Json& view =
+        glb.json["bufferViews"]
+                [glb.json["accessors"][accessor.get<std::size_t>()]["bufferView"].get<std::size_t>()];
+    return &glb.binary[view.value("byteOffset", std::size_t(0))];
+  };
+  expect([](Glb&, Json& g) { g = 5; }, ".pca: an object was expected");
+  for (const char* name : {"clusters", "vectors", "means", "basis", "weights", "cluster"})
+    expect([name](Glb&, Json& g) { g.erase(name); }, (std::string(".pca.") + name + ": missing").c_str());
+  expect([](Glb&, Json& g) { g["clusters"] = 0; }, ".pca.clusters: 0 is not a whole number from 1");
+  expect([](Glb&, Json& g) { g["vectors"] = 37; }, ".pca.vectors: 37");
+  expect([](Glb&, Json& g) { g["clusters"] = 4; }, ".pca.means: accessors[");
+  expect([](Glb&, Json& g) { g["vectors"] = 3; }, ".pca.basis: accessors[");
+  expect([](Glb&, Json& g) { g["cluster"] = g["means"]; }, ".pca.cluster: accessors[");
+  expect([](Glb&, Json& g) { g["weights"] = 999; }, ".pca.weights: 999");
+  expect([&](Glb& glb, Json& g) { bytesOf(glb, g["cluster"])[7] = 3; }, "is 3; there are 3");
+  expect([&](Glb& glb, Json& g) { std::memset(bytesOf(glb, g["weights"]), 0xff, 4); },
+         ".pca.weights: element 0");
+  expect([](Glb& glb, Json&) { extensionOf(glb)["version"] = 4; }, ".version: 4 is not known");
+  expect([](Glb& glb, Json&) { extensionOf(glb)["version"] = 1; }, ".direct: missing");
+}
+
 TEST(Transfer, ErrorsNameTheField) {
   const auto contains = [](const std::string& message, const char* part) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
     EXPECT_NE(message.find(kTransferExtension), std::string::npos) << message;
   };
-  contains(messageAfter([](Glb& g) { extensionOf(g)["version"] = 2; }), ".version: 2 is not known");
+  contains(messageAfter([](Glb& g) { extensionOf(g)["version"] = 9; }), ".version: 9 is not known");
   contains(messageAfter([](Glb& g) { extensionOf(g).erase("version"); }), ".version: missing");
   contains(messageAfter([](Glb& g) { extensionOf(g)["order"] = 7; }), ".order: 7");
   contains(messageAfter([](Glb& g) { extensionOf(g)["order"] = 4; }), ".direct: accessors[");

@@ -71,9 +71,14 @@ Scene makeLamp(const Detail& detail, NamedValues& values);            //
 Scene makeSpheres(const Detail& detail, NamedValues& values);         // builtin_stages.cpp
 Scene makeShadow(const Detail& detail, NamedValues& values);          //
 Scene makeBronze(const Detail& detail, NamedValues& values);          //
+Scene makeCaustic(const Detail& detail, NamedValues& values);         //
 Scene makeMobile(const Detail& detail, NamedValues& values);          //
 Scene makeColumns(const Detail& detail, NamedValues& values);         // builtin_columns.cpp
+Scene makeGallery(const Detail& detail, NamedValues& values);         // builtin_gallery.cpp
+Scene makeLanterns(const Detail& detail, NamedValues& values);        // builtin_lanterns.cpp
 Scene makeTextured(const Detail& detail, NamedValues& values);        // builtin_textured.cpp
+Scene makePassing(const Detail& detail, NamedValues& values);         // builtin_neighbours.cpp
+Scene makeRing(const Detail& detail, NamedValues& values);            //
 Scene makeWalker(const Detail& detail, NamedValues& values);          // builtin_walker.cpp
 
 }  // namespace gloam

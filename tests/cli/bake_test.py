@@ -109,6 +109,22 @@ class Bake(CliTest):
         self.assertIn(words, self.succeed("scene", "lit.glb", "-o", "b.glb").err)
         self.assertNotIn(words, self.succeed("bake", SCENE, *QUICK, "--kind", "du", "-o", "a.glb").err)  # a sky by name
 
+    def test_components_take_less_room_and_say_what_they_cost(self):
+        whole = self.succeed_json("bake", SCENE, *QUICK, "-o", "whole.glb")
+        self.assertIsNone(whole["pca"])
+        small = self.succeed_json("bake", SCENE, *QUICK, "--pca", "16x9", "--half", "-o", "small.glb")["pca"]
+        self.assertLess(small["bytes"], small["bytes_before"] / 1.4)
+        self.assertTrue(0 < small["transfer_error"] < 0.05, small)
+        self.assertGreaterEqual(small["worst_light_error"], small["light_error"])
+        self.assertIn("errs by", self.succeed("bake", SCENE, *QUICK, "--pca", "4x4", "-o", "a.glb").err)
+        light = []
+        for name in "whole", "small":
+            self.succeed("render", f"{name}.glb", *SMALL, "-o", "a.exr")
+            light.append(self.means("a.exr")["G"])
+        self.assertLess(abs(light[1] / light[0] - 1), 0.01)
+        for value in "16", "0x4", "4x0", "4x", "x4", "4x4x4", "5000x4", "4x145", "axb":
+            self.refuse("bake", SCENE, *QUICK, "--pca", value, "-o", "b.glb", says=["--pca", value, "64x20"])
+
     def test_half_floats_halve_the_transfer(self):
         sizes = []
         for options in [], ["--half"]:
@@ -127,6 +143,92 @@ class Bake(CliTest):
         expected = self.succeed_json("bake", SCENE, *QUICK, "--estimate")["file_bytes"]
         size = self.succeed_json("bake", SCENE, *QUICK, "-o", "a.glb")["file_bytes"]
         self.assertTrue(0.5 < size / expected <= 1.05, (size, expected))
+
+    def test_mirrors_throw_light(self):
+        light = []
+        for choice in "on", "off":
+            self.succeed("bake", "builtin:caustic?detail=0.25", *QUICK, "--glossy", "off", "--caustics", choice, "-o", "a.glb")
+            self.succeed("render", "a.glb", *SMALL, "--env", "sky:uniform", "--no-background", "-o", "a.exr")
+            light.append(self.means("a.exr", "indirect"))
+        self.assertGreater(light[0]["R"], 3 * light[1]["R"], "a gold ring sends nothing but what it mirrors")
+        self.assertGreater(light[0]["R"], 1.5 * light[0]["B"], "gold")
+
+    def test_points_take_directions_until_they_are_known(self):
+        command = ["bake", SCENE, *QUICK, "--directions", "8192", "--kind", "ds"]
+        self.assertIsNone(self.succeed_json(*command, "-o", "a.glb")["adaptive"])
+        result = self.succeed_json(*command, "--error", "0.02", "-o", "a.glb")["adaptive"]
+        self.assertTrue(256 < result["mean_directions"] < result["most_directions"] <= 8192, result)
+        self.assertTrue(0.002 < result["error"] <= 0.02, result)
+        self.assertGreater(result["rays_saved"], 0)
+        said = self.succeed(*command, "--error", "0.0001", "-o", "a.glb").err
+        self.assertRegex(said, r"\d+ directions a point on average, 8192 at most: .* rays saved")
+        self.assertIn("would need more than --directions", said)
+
+    def test_memory_is_told_and_obeyed(self):
+        command = ["bake", "builtin:cornell?detail=0.5", "--directions", "1024", "--bounce-directions", "1024", "--bounces", "3",
+                   "--order", "6"]
+        estimate = self.succeed_json(*command, "--estimate")
+        self.assertLess(estimate["least_memory_bytes"], estimate["memory_bytes"])
+        self.refuse(*command, "--memory", "20M", "-o", "a.glb", says=["--memory", "20 MiB are too little", "MiB at least"])
+        for size in "", "0", "12X", "M", "-3M", "1e400":
+            self.refuse(*command, f"--memory={size}", "-o", "a.glb", says="--memory")
+        self.assertFalse(self.path("a.glb").exists())
+        for name, cap in ("free.glb", None), ("capped.glb", estimate["least_memory_bytes"] + (4 << 20)):
+            options = ["--memory", str(cap)] if cap else []
+            process = subprocess.Popen([GLOAM, *command, *options, "--quiet", "-o", name], cwd=self.folder, env=self.environment)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0)
+            self.assertLess(usage.ru_maxrss * 1024, cap or estimate["memory_bytes"])
+        self.assertEqual(self.path("free.glb").read_bytes(), self.path("capped.glb").read_bytes())
+
+    def test_a_mesh_that_is_no_surface_is_baked(self):
+        self.path("a.obj").write_text("""v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 2 0 0
+f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
+        self.succeed("bake", "a.obj", *QUICK, "-o", "a.glb")
+        self.succeed("render", "a.glb", *SMALL, "--no-background", "-o", "a.exr")
+        self.assertTrue(0 < self.means("a.exr")["G"] < 10)
+
+    def test_texels_of_lightmaps(self):
+        scene = "builtin:gallery?detail=0.25"
+        result = self.succeed_json("bake", scene, *QUICK, "--bounces", "1", "--texels", "16", "-o", "a.glb")
+        self.assertTrue(10 * 150 < result["texels"] <= 12 * 256, result)
+        transfer = self.succeed_json("info", "a.glb")["transfer"]
+        self.assertEqual((transfer["lightmaps"], transfer["texels"]), (12, 12 * 256))
+        self.succeed("render", "a.glb", *SMALL, "--no-background", "-o", "a.exr")
+        self.succeed("bake", scene, *QUICK, "--bounces", "1", "-o", "b.glb")
+        self.assertEqual(self.succeed_json("info", "b.glb")["transfer"]["lightmaps"], 0)
+        self.succeed("render", "b.glb", *SMALL, "--no-background", "-o", "b.exr")
+        self.assertGreater(self.means("a.exr", "direct")["G"], 1.2 * self.means("b.exr", "direct")["G"],
+                           "corners of the floor lie in the dark, its middle does not")
+        said = self.succeed("bake", scene, *QUICK, "--texels-per-metre", "3", "--texels", "64", "--half", "-o", "c.glb").err
+        self.assertIn("vertices instead of texels for 'knot', 'ball': no TEXCOORD_1; expected", said)
+        self.assertIn("texels", self.succeed("bake", scene, "--texels", "16", "--estimate").out)
+        self.succeed("render", "c.glb", *SMALL, "-o", "c.exr")
+        self.refuse("bake", SCENE, *QUICK, "--texels", "16", "-o", "d.glb", says=["no mesh has room for texels", "'floor'", "TEXCOORD_1"])
+        self.assertIn("--uv-set has no effect", self.succeed("bake", SCENE, *QUICK, "--uv-set", "1", "-o", "d.glb").err)
+
+    def test_a_bake_of_texels_goes_on_where_it_stopped(self):
+        command = ["bake", "builtin:gallery?detail=0.25", *LONG, "--texels", "48"]
+        self.succeed(*command, "-o", "whole.glb")
+        process = subprocess.Popen([GLOAM, *command, "-o", "a.glb"], cwd=self.folder, env=self.environment, stderr=subprocess.PIPE)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.succeed(*command, "-o", "a.glb")
+        self.assertEqual(self.path("a.glb").read_bytes(), self.path("whole.glb").read_bytes())
+
+    def test_triangles_are_split_for_shadows(self):
+        scene = "builtin:gallery?detail=0.25"
+        done = self.succeed("bake", scene, *QUICK, "--kind", "ds", "--tessellate", "0.1", "-o", "a.glb").err
+        self.assertRegex(done, r"tessellated: [\d,]+ vertices added \([\d,]+ to [\d,]+\).* % before, .* % after")
+        result = self.succeed_json("bake", scene, *QUICK, "--kind", "ds", "--tessellate", "0.1", "--tessellate-max", "700", "-o", "b.glb")
+        split = result["tessellated"]
+        self.assertTrue(split["vertices_before"] < split["vertices_after"] <= 700, split)
+        self.assertGreater(split["error_before"], 0.1)
+        self.assertEqual(self.succeed_json("info", "b.glb")["vertices"], split["vertices_after"])
+        self.assertIsNone(self.succeed_json("bake", scene, *QUICK, "-o", "c.glb")["tessellated"])
+        self.assertIn("--tessellate-max has no effect", self.succeed("bake", scene, *QUICK, "--tessellate-max", "900", "-o", "c.glb").err)
 
     def test_threads_do_not_change_the_bits(self):
         for name, threads in ("a.glb", 1), ("b.glb", 2):
@@ -186,7 +288,9 @@ class Bake(CliTest):
     def test_bad_options(self):
         for option, value in ("--order", 2), ("--order", 7), ("--order", "x"), ("--directions", 0), ("--directions", 1e6), \
                 ("--bounces", 0), ("--bounces", 65), ("--threads", -1), ("--kind", "dx"), ("--time", "nan"), \
-                ("--glossy", "yes"), ("--glossy-order", 7), ("--glossy-light-order", 2), ("--bake-gloss", 0):
+                ("--glossy", "yes"), ("--texels", 3), ("--texels", 4097), ("--texels-per-metre", 0), ("--texels-per-metre", "nan"), \
+                ("--uv-set", 8), ("--uv-set", -1), ("--tessellate", 0), ("--tessellate", 2), ("--tessellate-max", 2), \
+                ("--glossy-order", 7), ("--glossy-light-order", 2), ("--bake-gloss", 0), ("--error", 0), ("--error", 2), ("--caustics", "yes"):
             self.refuse("bake", SCENE, option, value, "-o", "a.glb", says=[option, value if value != 1e6 else "1000000"])
         self.refuse("bake", SCENE, "--order", 4, "--glossy", "on", "--glossy-light-order", 5, "-o", "a.glb",
                     says="glossy_light_order is 5; expected 3 to 4")

@@ -9,8 +9,8 @@ import unittest
 
 from harness import SOURCE, CliTest
 
-SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "columns", "lamp", "textured", "walker",
-          "mobile"]
+SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "columns", "gallery", "lamp", "textured", "walker",
+          "mobile", "passing", "ring"]
 
 
 def missing():
@@ -45,10 +45,17 @@ class Validator(CliTest):
         bake = ["bake", "builtin:columns?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
         self.succeed(*bake, "--bounces", "1", "-o", "di.glb")
         self.succeed(*bake, "--kind", "ds", "--half", "-o", "ds.glb")
+        gallery = ["bake", "builtin:gallery?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
+        self.succeed(*gallery, "--texels", "16", "--half", "-o", "texels.glb")
+        self.succeed(*gallery, "--tessellate", "0.2", "-o", "split.glb")
         gloss = ["bake", "builtin:bronze?detail=0.25", "--directions", "256", "--bounce-directions", "256", "--order", "3"]
         self.succeed(*gloss, "--bounces", "1", "-o", "gi.glb")
         self.succeed(*gloss, "--kind", "ds", "--bake-gloss", "4", "--half", "-o", "gs.glb")
-        self.validate([self.path(f"{name}.glb") for name in ("di", "ds", "gi", "gs")])
+        near = ["bake", "builtin:ring?detail=0.25", "--directions", "256", "--bounce-directions", "64", "--order", "3", "--grid", "4",
+                "--neighbourhood", "ring"]
+        self.succeed(*near, "-o", "near.glb")
+        self.succeed(*near, "--half", "-o", "near_half.glb")
+        self.validate([self.path(f"{name}.glb") for name in ("texels", "split", "di", "ds", "gi", "gs", "near", "near_half")])
 
     def test_what_the_writers_own_tests_write(self):
         scene_test = pathlib.Path(os.environ["SCENE_TEST"])

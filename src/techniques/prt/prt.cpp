@@ -61,8 +61,9 @@ gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scen
   const gpu::Limits& limits = graph.device().limits();
   for (const TransferChunk& chunk : transfer.chunks()) {
     params.block_count = chunk.block_count;
-    const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
-    const std::uint32_t rows = (chunk.block_count + columns - 1) / columns;
+    const std::uint32_t groups = (chunk.block_count + kBlocksTogether - 1) / kBlocksTogether;
+    const std::uint32_t columns = std::min(groups, limits.max_group_count[0]);
+    const std::uint32_t rows = (groups + columns - 1) / columns;
     graph.compute("prt.vertices", prt_vertices_spv)
         .specialize("coefficients", transfer.order() * transfer.order())
         .specialize("has_indirect", transfer.hasIndirect())
@@ -88,6 +89,12 @@ UnbakedRow unbakedRow(const sh::ShRgb& light) {
 
 }  // namespace
 
+/// Local light sees emitters and what surfaces send to one another.
+static Coverage coverageOf(const Settings& settings) {
+  const Coverage distant{.environment_direct = true, .environment_indirect = true, .local_direct = true};
+  return settings.choice("local_light") == std::string("off") ? distant : kAllLight;
+}
+
 const TechniqueInfo& info() {
   static const std::vector<Option> options = {
       {.name = "order",
@@ -105,6 +112,31 @@ const TechniqueInfo& info() {
        .choices = {"matrix", "cheap", "unshadowed"},
        .help = "gloss where it is baked: by matrices; by visibility alone, times the light; or as if nothing "
                "were in the way"},
+      {.name = "neighbourhood",
+       .default_value = true,
+       .help = "shadow and light that objects throw on others, where a neighbourhood is baked (and local_light is "
+               "off, which has them from its probes)"},
+      {.name = "local_light",
+       .default_value = std::string("off"),
+       .choices = {"off", "emitters", "all"},
+       .help = "light sampled around each object every frame: of emitters, other objects and the sky behind "
+               "them; all: "
+               "of lamps too, softly, in place of shadow maps"},
+      {.name = "local_points",
+       .default_value = 4,
+       .minimum = 1,
+       .maximum = kMostLocalPoints,
+       .help = "points around an object at which local light is sampled"},
+      {.name = "local_bounces",
+       .default_value = 1,
+       .minimum = 0,
+       .maximum = 8,
+       .help = "how often local light goes from object to object"},
+      {.name = "local_size",
+       .default_value = 16,
+       .minimum = 4,
+       .maximum = 64,
+       .help = "texels a side of the cubes' faces in which local light is sampled"},
       {.name = "half_float",
        .default_value = false,
        .help = "keep transfer as halves on the device: half the memory"}};
@@ -115,7 +147,8 @@ const TechniqueInfo& info() {
           "light",
       .covers = {.environment_direct = true, .environment_indirect = true, .local_direct = true},
       .options = options,
-      .needs_bake = true};
+      .needs_bake = true,
+      .covers_with = coverageOf};
   return info;
 }
 
@@ -126,6 +159,16 @@ const TransferBuffers& Prt::transferFor(const frame::FrameInputs& inputs, const 
   transfer_.emplace(device_, inputs.scene, options);
   layout_revision_ = revision;
   return *transfer_;
+}
+
+const NeighbourhoodBuffers& Prt::neighbourhoodFor(const frame::FrameInputs& inputs, int order) {
+  const std::uint64_t revision = inputs.scene.layoutRevision();
+  if (neighbourhood_ && neighbourhood_revision_ == revision && neighbourhood_->orderAskedFor() == order)
+    return *neighbourhood_;
+  neighbourhood_.reset();
+  neighbourhood_.emplace(device_, inputs.scene, order);
+  neighbourhood_revision_ = revision;
+  return *neighbourhood_;
 }
 
 const GlossyBuffers& Prt::glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options) {
@@ -153,6 +196,23 @@ void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
   lighting.has_environment_gloss = true;
 }
 
+gpu::BufferRef Prt::lightVerticesLocally(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                         const TransferBuffers& transfer, const Settings& settings) {
+  const std::uint64_t revision = inputs.scene.layoutRevision();
+  const int points = settings.integer("local_points");
+  if (!local_ || local_revision_ != revision || local_->points() != points) {
+    local_.emplace(inputs.scene, transfer, points);
+    local_revision_ = revision;
+  }
+  const bool damped = settings.choice("window") == "auto";
+  return local_->record(graph, inputs, transfer, probe_tables_,
+                        {.lamps = settings.choice("local_light") == "all",
+                         .size = settings.integer("local_size"),
+                         .bounces = settings.integer("local_bounces"),
+                         .damped = damped,
+                         .window = windowOf(settings.choice("window"))});
+}
+
 frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                             const Settings& settings) {
   const TransferBuffers& transfer = transferFor(inputs, {.order = settings.integer("order"),
@@ -164,11 +224,23 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   if (settings.integer("order") > transfer.order())
     inputs.warnings.push_back(fmt::format("prt.order {}: the scene is baked with {} bands",
                                           settings.integer("order"), transfer.order()));
-  if (inputs.environment.empty()) return {};
+  const bool local = settings.choice("local_light") != "off";
+  if (inputs.environment.empty() && !local) return {};
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), transfer.order(), windowOf(settings.choice("window")));
   const gpu::BufferRef vertex_light =
-      lightVertices(graph, inputs.scene, transfer, light, settings.choice("window") == "auto");
+      local ? lightVerticesLocally(graph, inputs, transfer, settings)
+            : lightVertices(graph, inputs.scene, transfer, light, settings.choice("window") == "auto");
+
+  std::optional<NeighbourhoodPasses> neighbourhood;
+  // Local light sees the other objects in the way by itself.
+  if (settings.flag("neighbourhood") && !local && !inputs.scene.carriers().shown().empty()) {
+    const NeighbourhoodBuffers& buffers = neighbourhoodFor(inputs, settings.integer("order"));
+    neighbourhood.emplace(
+        graph, inputs, buffers, transfer,
+        frame::windowed(inputs.environment.sh(), buffers.lightOrder(), windowOf(settings.choice("window"))));
+    neighbourhood->lightVertices(transfer, vertex_light);
+  }
 
   const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                             .width = inputs.gbuffer.width,
@@ -180,16 +252,19 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
                      .read("frame_view", inputs.view)
                      .read("ids", inputs.gbuffer.ids)
                      .read("normals", inputs.gbuffer.normals)
-                     .read("first_outputs", transfer.firstOutputs())
+                     .read("output_rows", transfer.outputRows())
+                     .read("lightmap_uvs", inputs.scene.uvs())
                      .read("vertex_light", vertex_light)
                      .read("unbaked", graph.uploadOne("prt.unbaked", unbakedRow(light)))
                      .write("direct", direct)
                      .write("indirect", indirect);
   inputs.scene.bindTriangles(pixels).dispatchOver(direct);
   frame::Lighting lighting{.irradiance = {{.image = direct, .path = frame::Path::kDirect}}};
-  if (transfer.hasIndirect() && settings.flag("indirect"))
+  lighting.has_local_direct = settings.choice("local_light") == "all";
+  if ((transfer.hasIndirect() || local || neighbourhood) && settings.flag("indirect"))
     lighting.irradiance.push_back({.image = indirect, .path = frame::Path::kIndirect});
   addGloss(graph, inputs, settings, lighting);
+  if (neighbourhood) neighbourhood->lightPixels(lighting, settings.flag("indirect"));
   return lighting;
 }
 

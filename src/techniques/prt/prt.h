@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "techniques/prt/prt_glossy_transfer.h"
+#include "techniques/prt/prt_local.h"
+#include "techniques/prt/prt_neighbourhood.h"
 #include "techniques/prt/prt_transfer.h"
 #include "techniques/technique.h"
 
@@ -19,7 +21,7 @@ class Prt : public Technique {
  public:
   /// `chunk_bytes`: largest buffer of transfer; 0: what the device takes.
   explicit Prt(gpu::Device& device, std::size_t chunk_bytes = 0)
-      : device_(device), chunk_bytes_(chunk_bytes) {}
+      : device_(device), chunk_bytes_(chunk_bytes), probe_tables_(device) {}
   /// Throws Error where no mesh of the scene carries transfer.
   frame::Lighting record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                          const Settings& settings) override;
@@ -27,6 +29,9 @@ class Prt : public Technique {
  private:
   const TransferBuffers& transferFor(const frame::FrameInputs& inputs, const TransferOptions& options);
   const GlossyBuffers& glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options);
+  const NeighbourhoodBuffers& neighbourhoodFor(const frame::FrameInputs& inputs, int order);
+  gpu::BufferRef lightVerticesLocally(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                      const TransferBuffers& transfer, const Settings& settings);
   void addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,
                 frame::Lighting& lighting);
 
@@ -36,6 +41,11 @@ class Prt : public Technique {
   std::uint64_t layout_revision_ = 0;
   std::optional<GlossyBuffers> glossy_;
   std::uint64_t glossy_revision_ = 0;
+  std::optional<LocalLight> local_;
+  std::uint64_t local_revision_ = 0;
+  frame::ProbeTables probe_tables_;
+  std::optional<NeighbourhoodBuffers> neighbourhood_;
+  std::uint64_t neighbourhood_revision_ = 0;
 };
 
 }  // namespace gloam::prt

@@ -12,49 +12,17 @@
 
 #include "scene/threads.h"
 #include "scene/transforms.h"
+#include "techniques/prt/prt_bake_apart.h"
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_meter.h"
 #include "techniques/prt/prt_bake_passes.h"
+#include "techniques/prt/prt_bake_plan.h"
+#include "techniques/prt/prt_bake_texels.h"
 
 namespace gloam {
 namespace {
 
 using namespace prt;
-
-void checkRange(const char* name, int value, int low, int high) {
-  if (value < low || value > high) {
-    throw Error("bake", fmt::format("{} is {}; expected {} to {}", name, value, low, high));
-  }
-}
-
-void checkGlossyOptions(const BakeOptions& options) {
-  if (options.glossy == GlossyMeshes::kNone) return;
-  if (options.glossy_order != 0) checkRange("glossy_order", options.glossy_order, 3, 6);
-  const int most = std::min(options.order, options.glossy_order > 0 ? options.glossy_order : options.order);
-  if (options.glossy_light_order != 0) checkRange("glossy_light_order", options.glossy_light_order, 3, most);
-  const float exponent = options.glossy_exponent;
-  if (exponent != 0.0f && !(exponent >= 1.0f && exponent <= 1000.0f)) {
-    throw Error("bake", fmt::format("glossy_exponent is {}; expected 1 to 1000, or 0", exponent));
-  }
-}
-
-void checkOptions(const BakeOptions& options) {
-  checkRange("order", options.order, 3, 6);
-  checkRange("directions", options.directions, 256, 65536);
-  checkRange("threads", options.threads, 0, 1024);
-  checkGlossyOptions(options);
-  if (options.kind != TransferKind::kInterreflected) return;
-  checkRange("bounces", options.bounces, 1, 64);
-  checkRange("bounce_directions", options.bounce_directions, 64, 65536);
-}
-
-int bouncesOf(const BakeOptions& options) {
-  return options.kind == TransferKind::kInterreflected ? options.bounces : 0;
-}
-
-int bounceDirectionsOf(const BakeOptions& options) {
-  return std::min(options.bounce_directions, options.directions);
-}
 
 void checkBakeable(const Scene& scene, const PosedScene& posed) {
   const std::string place = scene.name.empty() ? "bake" : scene.name;
@@ -99,6 +67,7 @@ std::size_t runPass(BakeState& state, BakeMeter& meter, const Work& work) {
       },
       tbb::simple_partitioner());
   if (stop) meter.interrupt();
+  if (state.pass == state.bounces) meter.lastPassDone();
   return rays;
 }
 
@@ -122,7 +91,8 @@ void runPasses(BakePasses& passes, BakeState& state, BakeMeter& meter, BakeRepor
       if (!state.glossy.empty()) {
         passes.fillHidden(state, {state.glossy.next, state.glossy.layout.matrixSize(), &state.glossy});
       }
-      report.bounces_s += since(start);
+      report.bounce_s.push_back(since(start));
+      report.bounces_s += report.bounce_s.back();
     }
     state.finishPass();
   }
@@ -147,6 +117,27 @@ void writeVertex(const BakeState& state, std::size_t point, const sh::Rotation& 
   std::copy_n(&indirect.c[0].x, 3 * coefficients, &transfer.indirect[vertex * 3 * coefficients]);
 }
 
+int mostDirections(const BakeState& state) {
+  std::uint32_t most = 0;
+  for (const RaySite& site : state.sites) most = std::max(most, site.tiles);
+  return int(most) * kTileSize;
+}
+
+void reportDirections(const BakeState& state, const DirectionTables& tables, const BakeOptions& options,
+                      BakeReport& report) {
+  double tiles = 0.0, squares = 0.0;
+  for (const RaySite& site : state.sites) {
+    tiles += double(site.tiles);
+    squares += double(site.error) * double(site.error);
+    if (options.error > 0.0f && site.error > options.error) ++report.above_error;
+  }
+  const double points = double(std::max<std::size_t>(1, state.points));
+  report.most_directions = mostDirections(state);
+  report.mean_directions = tiles / points * kTileSize;
+  report.rays_saved = std::size_t((double(tables.tiles) * double(state.points) - tiles) * kTileSize / 2.0);
+  report.error = std::sqrt(squares / points);
+}
+
 void attachTransfer(Scene& scene, const PosedScene& posed, const BakePoints& points, const BakeState& state,
                     const BakeOptions& options) {
   const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
@@ -158,14 +149,21 @@ void attachTransfer(Scene& scene, const PosedScene& posed, const BakePoints& poi
     auto transfer = std::make_shared<Transfer>();
     transfer->order = options.order;
     transfer->bounces = state.bounces;
-    const bool sampled = options.kind != TransferKind::kUnshadowed;
-    transfer->directions = sampled ? (options.directions + kTileSize - 1) / kTileSize * kTileSize : 0;
-    transfer->direct.resize(mesh.vertexCount() * coefficients);
-    if (state.bounces > 0) transfer->indirect.resize(mesh.vertexCount() * coefficients * 3);
+    transfer->directions = mostDirections(state);
+    const TexelMap* texels = points.hasTexels(i) ? &points.texel_maps[i] : nullptr;
+    if (texels) {
+      transfer->texel_width = texels->width;
+      transfer->texel_height = texels->height;
+      transfer->uv_set = texels->uv_set;
+    }
+    const std::size_t count = texels ? texels->points.size() : mesh.vertexCount();
+    transfer->direct.resize(count * coefficients);
+    if (state.bounces > 0) transfer->indirect.resize(count * coefficients * 3);
     const auto object_from_world =
         sh::makeRotation(options.order, glm::transpose(rotationFactor(instance.world_from_object)));
-    tbb::parallel_for(std::size_t(0), mesh.vertexCount(), [&](std::size_t v) {
-      const std::uint32_t point = points.point_of_vertex[points.first_vertex[i] + v];
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t v) {
+      const std::uint32_t point =
+          texels ? texels->points[v] : points.point_of_vertex[points.first_vertex[i] + v];
       if (point != BakePoints::kNoPoint) writeVertex(state, point, object_from_world, v, *transfer);
     });
     if (glossy[i]) {
@@ -205,78 +203,40 @@ void bakeShadowed(const Scene& scene, const PosedScene& posed, const BakePoints&
     glossy->instances = glossyInstances(scene, posed, options.glossy);
     glossy->exponent = options.glossy_exponent;
   }
-  BakePasses passes(scene, posed, points, tracer, tables, glossy ? &*glossy : nullptr);
+  const PassSettings settings{.bounces = state.bounces,
+                              .caustics = options.caustics,
+                              .error = options.error,
+                              .kept_bytes = keptHitsBytes(estimateBake(scene, options), options)};
+  BakePasses passes(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
   const double glossy_share = double(state.glossy.rows()) / double(std::max<std::size_t>(1, points.size()));
   BakeMeter meter(progress, options, fingerprint, state, passWork(tables, state.bounces, glossy_share));
   runPasses(passes, state, meter, report);
   std::error_code ignored;
-  if (!options.checkpoint.empty()) std::filesystem::remove(options.checkpoint, ignored);
+  // Objects that are done wait for the others.
+  if (!options.checkpoint.empty() && !options.apart) std::filesystem::remove(options.checkpoint, ignored);
 }
 
 }  // namespace
 
-BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
-  checkOptions(options);
-  const PosedScene posed = pose(scene, options.time_s);
-  BakeEstimate estimate;
-  const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
-  for (std::size_t i = 0; i < posed.instances.size(); ++i) {
-    const Instance& instance = posed.instances[i];
-    if (instance.deformed()) continue;
-    if (glossy[i]) estimate.glossy_vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
-    estimate.vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
-    estimate.triangles += scene.meshes[std::size_t(instance.mesh)].triangleCount();
-  }
-  const DirectionTables tables =
-      makeDirectionTables(options.order, options.directions, bounceDirectionsOf(options));
-  if (options.kind != TransferKind::kUnshadowed) {
-    estimate.rays = estimate.vertices * std::size_t(tables.tiles) * kTileSize / 2;
-  }
-  const std::size_t coefficients = std::size_t(tables.coefficients);
-  const std::size_t colors = options.kind == TransferKind::kInterreflected ? 4 : 1;
-  const GlossyLayout layout = glossyLayout(options);
-  const bool bounces = options.kind == TransferKind::kInterreflected;
-  const std::size_t matrices =
-      layout.visibilityCount() + (bounces ? std::size_t(3 * layout.lightCount() * layout.fieldCount()) : 0);
-  const std::size_t transfer =
-      (estimate.vertices * coefficients * colors + estimate.glossy_vertices * matrices) * sizeof(float);
-  // Per triangle: the hierarchy (130 bytes, measured), the points' own lists; per vertex: positions, normals, tangents,
-  // texture coordinates of the unique copy and the table that welds.
-  const std::size_t hits = estimate.vertices * std::size_t(tables.bounce_tiles) * kTileSize / 2;
-  const std::size_t hit = estimate.glossy_vertices > 0 ? sizeof(GlossyHit) : sizeof(GatheredHit);
-  const std::size_t kept = bouncesOf(options) > 1 ? std::min(kKeptHitsBytes, hits * hit) : 0;
-  if (estimate.glossy_vertices > 0) {
-    estimate.memory_bytes = estimate.glossy_vertices * glossyStateBytes(layout, bounces) +
-                            GlossyTables::memoryBytes(layout, tables.tiles);
-  }
-  estimate.memory_bytes += kept + bakeStateBytes(estimate.vertices, tables, bouncesOf(options)) +
-                           tables.memoryBytes() + transfer + estimate.triangles * (130 + 40) +
-                           estimate.vertices * (60 + 90);
-  estimate.file_bytes = transfer + estimate.triangles * 12 + estimate.vertices * 48;
-  for (const Texture& texture : scene.textures) estimate.file_bytes += texture.rgba.size() / 2;
-  return estimate;
-}
-
-Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress,
-                   BakeReport* report) {
-  checkOptions(options);
+static Scene bakeOne(const Scene& scene, const BakeOptions& options, const Progress& progress,
+                     BakeReport& done) {
   Scene unique = makeInstancesUnique(scene);
   const PosedScene posed = pose(unique, options.time_s);
   checkBakeable(unique, posed);
-  const BakePoints points = makeBakePoints(unique, posed);
-  const DirectionTables tables =
-      makeDirectionTables(options.order, options.directions, bounceDirectionsOf(options));
-  BakeState state = makeBakeState(points.size(), tables, bouncesOf(options));
+  BakePoints points = makeBakePoints(unique, posed);
+  addTexels(points, unique, posed, chooseLightmaps(unique, posed, options, done.warnings));
+  const DirectionTables tables = tablesFor(options);
+  BakeState state =
+      makeBakeState(points.size(), tables, bouncesOf(options), followsMirrors(unique, posed, options));
   state.glossy = makeGlossyState(unique, posed, points, options);
-  BakeReport local;
-  BakeReport& done = report ? *report : local;
-  done = {};
   done.vertices = points.size();
+  done.texels = points.on_faces.size();
   withThreads(options.threads, [&] {
     if (options.kind == TransferKind::kUnshadowed) {
       bakeUnshadowed(points, options, state);
     } else {
       bakeShadowed(unique, posed, points, tables, options, progress, state, done);
+      reportDirections(state, tables, options, done);
     }
     for (std::vector<float>* unneeded :
          {&state.previous, &state.next, &state.glossy.previous, &state.glossy.next})
@@ -286,6 +246,20 @@ Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progres
     attachTransfer(unique, posed, points, state, options);
   });
   return unique;
+}
+
+Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress,
+                   BakeReport* report) {
+  checkOptions(options);
+  if (options.memory_bytes > 0) keptHitsBytes(estimateBake(scene, options), options);
+  BakeReport local;
+  BakeReport& done = report ? *report : local;
+  done = {};
+  if (wantsTexels(options)) requireLightmaps(scene, pose(scene, options.time_s), options);
+  if (!options.apart) return bakeOne(scene, options, progress, done);
+  Scene unique = makeInstancesUnique(scene);
+  checkBakeable(unique, pose(unique, options.time_s));
+  return bakeApart(std::move(unique), options, progress, done, bakeOne);
 }
 
 }  // namespace gloam

@@ -27,6 +27,7 @@ BakeMeter::BakeMeter(const Progress& progress, const BakeOptions& options, const
                      BakeState& state, std::vector<double> pass_work)
     : progress_(progress),
       checkpoint_(options.checkpoint),
+      keep_(options.apart),
       fingerprint_(fingerprint),
       state_(state),
       pass_work_(std::move(pass_work)),

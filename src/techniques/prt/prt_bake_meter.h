@@ -26,6 +26,10 @@ class BakeMeter {
   bool blockDone(std::size_t rays);
   /// Keeps what is done and throws Interrupted.
   [[noreturn]] void interrupt();
+  /// After the last pass: an object that is baked apart is kept until all are.
+  void lastPassDone() {
+    if (keep_) save();
+  }
 
  private:
   double fractionDone() const;
@@ -34,6 +38,7 @@ class BakeMeter {
 
   const Progress& progress_;
   const std::filesystem::path checkpoint_;
+  const bool keep_;
   const Fingerprint& fingerprint_;
   BakeState& state_;
   const std::vector<double> pass_work_;

@@ -5,8 +5,10 @@
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(prt)
 
-/// Vertices that one work group lights; transfer is stored in blocks of as many.
+/// Vertices of a block, in which transfer is stored.
 GLOAM_SHARED_CONST uint kBlockVertices = 64u;
+/// Blocks that a work group of prt.vertices takes.
+GLOAM_SHARED_CONST uint kBlocksTogether = 4u;
 GLOAM_SHARED_CONST uint kUnbaked = 0xffffffffu;
 
 /// The sharpest Phong lobe that bands of radiance show, by their number: its truncated kernel dips to no more than -8 % of
@@ -37,6 +39,15 @@ struct VertexLight {
   vec3 indirect;
 };
 GLOAM_SHARED_SIZE(VertexLight, 24)
+
+/// Where the light of an instance's points stands; first kUnbaked: it carries no transfer.
+struct OutputRow {
+  uint first;
+  uint texel_width;  // 0: points are vertices
+  uint texel_height;
+  uint first_uv;  // of the lightmap's texture coordinates
+};
+GLOAM_SHARED_SIZE(OutputRow, 16)
 
 /// The world's light convolved with the clamped cosine, for what carries no transfer.
 struct UnbakedRow {

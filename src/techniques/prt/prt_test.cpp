@@ -6,6 +6,10 @@
 
 #include <gloam/bake.h>
 
+#include <array>
+#include <glm/gtc/constants.hpp>
+#include <ranges>
+
 #include "frame/test_frame.h"
 #include "golden.h"
 #include "scene/environment.h"
@@ -207,6 +211,125 @@ TEST(Prt, ChunksGiveTheSamePicture) {
   const Picture whole = draw(scene), cut = draw(scene, settings(), kChunkBytes);
   EXPECT_EQ(whole.direct, cut.direct);
   EXPECT_EQ(whole.indirect, cut.indirect);
+}
+
+/// Transfer that is linear over the second set of texture coordinates, at vertices or at texels' middles: the same picture.
+void addLinearTransfer(Scene& scene, int width, int height) {
+  for (Mesh& mesh : scene.meshes) {
+    auto transfer = std::make_shared<Transfer>();
+    transfer->order = 3;
+    transfer->bounces = 1;
+    const auto add = [&](const glm::vec2& uv) {
+      for (int i = 0; i < 9; ++i) {
+        const float value = i == 0 ? 0.3f + uv.x + 0.5f * uv.y : 0.0f;
+        transfer->direct.push_back(value);
+        transfer->indirect.insert(transfer->indirect.end(), {0.2f * value, i == 0 ? uv.x : 0.0f, 0.0f});
+      }
+    };
+    const bool texels = width > 0 && mesh.uv_sets.size() > 1;
+    if (texels) {
+      transfer->texel_width = width;
+      transfer->texel_height = height;
+      transfer->uv_set = 1;
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x)
+          add((glm::vec2(float(x), float(y)) + 0.5f) / glm::vec2(float(width), float(height)));
+      }
+    } else {
+      for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+        add(mesh.uv_sets.size() > 1 ? mesh.uv_sets[1][v] : glm::vec2(0.5f));
+    }
+    mesh.transfer = transfer;
+  }
+}
+
+TEST(PrtTexels, BilinearBetweenTexels) {
+  Scene scene = loadScene("builtin:gallery?detail=0.25");
+  scene.environment = loadEnvironment("sky:uniform");
+  addLinearTransfer(scene, 0, 0);
+  const Picture vertices = draw(scene);
+  for (const char* half : {"off", "on"}) {
+    addLinearTransfer(scene, 96, 50);
+    const Picture texels = draw(scene, settings({{"half_float", half}}), half[1] == 'n' ? 0 : 100000);
+    float most = 0.0f, range = 0.0f;
+    for (std::size_t i = 0; i < vertices.direct.size(); ++i) {
+      if (i % 4 == 3) continue;
+      most = std::max(most, std::abs(texels.direct[i] - vertices.direct[i]));
+      most = std::max(most, std::abs(texels.indirect[i] - vertices.indirect[i]));
+      range = std::max(range, vertices.direct[i]);
+    }
+    EXPECT_GT(range, 0.8f);
+    // Half a texel from the edge of a map the last texel goes on.
+    EXPECT_LT(most, 0.02f) << half;
+  }
+}
+
+TEST(PrtTexels, SaysWhatDoesNotFit) {
+  Scene scene = loadScene("builtin:gallery?detail=0.25");
+  addLinearTransfer(scene, 8, 8);
+  scene.meshes[0].uv_sets.resize(1);
+  EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("mesh 'floor': transfer of texels"), std::string::npos);
+  addLinearTransfer(scene, 8, 8);
+  auto broken = std::make_shared<Transfer>(*scene.meshes[1].transfer);
+  broken->texel_width = 9;
+  scene.meshes[1].transfer = broken;
+  EXPECT_NE(gpu::errorOf([&] { draw(scene); }).find("for 72 texels needs 648 values"), std::string::npos);
+}
+
+// Soft shadows on walls of two triangles each: against vertices that are many.
+TEST(PrtTexels, WallsOfTwoTrianglesShowShadows) {
+  const auto sceneWith = [](int cells) {
+    Scene scene;
+    scene.materials.push_back({.metallic = 0.0f, .specular = 0.0f});
+    Mesh floor;
+    for (int z = 0; z <= cells; ++z) {
+      for (int x = 0; x <= cells; ++x) {
+        const glm::vec2 uv = glm::vec2(float(x), float(z)) / float(cells);
+        floor.positions.push_back({4.0f * uv.x - 2.0f, 0.0f, 4.0f * uv.y - 2.0f});
+        floor.normals.push_back({0, 1, 0});
+        floor.uv_sets.resize(2);
+        floor.uv_sets[0].push_back(uv), floor.uv_sets[1].push_back(uv);
+        if (x == cells || z == cells) continue;
+        const auto i = std::uint32_t(z * (cells + 1) + x), below = i + std::uint32_t(cells) + 1;
+        floor.indices.insert(floor.indices.end(), {i, below, below + 1, i, below + 1, i + 1});
+      }
+    }
+    Mesh plate;  // looks down, 0.6 m above
+    plate.positions = {{-0.5f, 0.6f, -0.4f}, {0.7f, 0.6f, -0.4f}, {0.7f, 0.6f, 0.3f}, {-0.5f, 0.6f, 0.3f}};
+    plate.normals.assign(4, {0, -1, 0});
+    plate.indices = {0, 1, 2, 0, 2, 3};
+    for (Mesh& mesh :
+         std::array{&floor, &plate} | std::views::transform([](Mesh* m) -> Mesh& { return *m; })) {
+      scene.nodes.push_back({.meshes = {int(scene.meshes.size())}});
+      scene.roots.push_back(int(scene.meshes.size()));
+      scene.meshes.push_back(mesh);
+    }
+    Node eye;
+    eye.translation = {0, 5, 0};
+    eye.rotation = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0));
+    eye.camera = 0;
+    scene.cameras.push_back({});
+    scene.roots.push_back(int(scene.nodes.size()));
+    scene.nodes.push_back(eye);
+    scene.environment = loadEnvironment("sky:uniform");
+    return scene;
+  };
+  BakeOptions options{.kind = TransferKind::kShadowed, .order = 4, .directions = 1024};
+  const Picture fine = draw(bakeTransfer(sceneWith(64), options));
+  const Picture two = draw(bakeTransfer(sceneWith(1), options));
+  options.texels = 64;
+  const Picture texels = draw(bakeTransfer(sceneWith(1), options));
+  const auto error = [&](const Picture& picture) {
+    double sum = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < picture.direct.size(); i += 4) {
+      if (fine.ids[i / 4].x != 1) continue;
+      sum += std::pow(double(picture.direct[i] - fine.direct[i]), 2.0),
+          all += std::pow(double(fine.direct[i]), 2.0);
+    }
+    return std::sqrt(sum / all);
+  };
+  EXPECT_GT(error(two), 0.04);
+  EXPECT_LT(error(texels), 0.01);
 }
 
 // One technique object serves one scene after another.

@@ -10,21 +10,29 @@ namespace gloam::prt {
 
 namespace {
 
+/// Vertices, or texels.
+std::uint32_t pointCount(const frame::GpuMesh& mesh) {
+  const Transfer& transfer = *mesh.transfer;
+  return transfer.ofTexels() ? std::uint32_t(transfer.texel_width) * std::uint32_t(transfer.texel_height)
+                             : mesh.vertex_count;
+}
+
 void checkSizes(const frame::GpuMesh& mesh) {
   const Transfer& transfer = *mesh.transfer;
   const std::string place = "mesh '" + mesh.name + "'";
   if (transfer.order < 1 || transfer.order > sh::kMaxOrder)
     throw Error(place, fmt::format("transfer of order {}; 1 to {} are known", transfer.order, sh::kMaxOrder));
   const std::size_t expected =
-      std::size_t(mesh.vertex_count) * std::size_t(transfer.order) * std::size_t(transfer.order);
+      std::size_t(pointCount(mesh)) * std::size_t(transfer.order) * std::size_t(transfer.order);
+  if (transfer.ofTexels() && mesh.first_lightmap_uv == frame::kAbsent)
+    throw Error(place, fmt::format("transfer of texels, but no texture coordinates {}", transfer.uv_set));
   if (transfer.direct.size() != expected ||
       (!transfer.indirect.empty() && transfer.indirect.size() != 3 * expected))
     throw Error(
-        place,
-        fmt::format("transfer of order {} for {} vertices needs {} values, or three times that for bounces; "
-                    "it has {} and {}",
-                    transfer.order, mesh.vertex_count, expected, transfer.direct.size(),
-                    transfer.indirect.size()));
+        place, fmt::format("transfer of order {} for {} {} needs {} values, or three times that for bounces; "
+                           "it has {} and {}",
+                           transfer.order, pointCount(mesh), transfer.ofTexels() ? "texels" : "vertices",
+                           expected, transfer.direct.size(), transfer.indirect.size()));
 }
 
 }  // namespace
@@ -61,13 +69,15 @@ void TransferBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& sce
   const bool half = options_.half_float;
   Packer packer(device, "prt.transfer", wordCount(kept, half), has_indirect_ ? wordCount(3 * kept, half) : 0,
                 options_.chunk_bytes);
-  std::vector<std::uint32_t> first_outputs(scene.instances().size(), kUnbaked);
+  std::vector<OutputRow> rows(scene.instances().size(), OutputRow{kUnbaked, 0, 0, 0});
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const std::uint32_t mesh_index = scene.instances()[lit_[i]].mesh;
     const auto light = static_cast<std::uint32_t>(i * std::size_t(order_) * std::size_t(order_));
     const auto output = static_cast<std::uint32_t>(output_vertices_);
-    first_outputs[lit_[i]] = output;
-    const Transfer& transfer = *scene.meshes()[mesh_index].transfer;
+    const frame::GpuMesh& mesh = scene.meshes()[mesh_index];
+    const Transfer& transfer = *mesh.transfer;
+    rows[lit_[i]] = {output, std::uint32_t(transfer.texel_width), std::uint32_t(transfer.texel_height),
+                     mesh.first_lightmap_uv};
     const std::size_t stored = std::size_t(transfer.order) * std::size_t(transfer.order);
     const std::vector<float> none(transfer.indirect.empty() ? 3 * kept : 0, 0.0f);
     const auto fill = [&](std::uint32_t v, std::uint32_t* direct, std::uint32_t* indirect) {
@@ -76,12 +86,12 @@ void TransferBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& sce
         packWords({none.empty() ? &transfer.indirect[v * 3 * stored] : none.data(), 3 * kept}, half,
                   indirect);
     };
-    for (const Packer::Part& part : packer.partsOf(mesh_index, scene.meshes()[mesh_index].vertex_count, fill))
+    for (const Packer::Part& part : packer.partsOf(mesh_index, pointCount(mesh), fill))
       packer.addBlocks(part, light, output);
-    output_vertices_ += scene.meshes()[mesh_index].vertex_count;
+    output_vertices_ += pointCount(mesh);
   }
   chunks_ = packer.finish();
-  first_outputs_ = gpu::Buffer(device, "prt.first_outputs", first_outputs);
+  output_rows_ = gpu::Buffer(device, "prt.output_rows", rows);
 }
 
 }  // namespace gloam::prt

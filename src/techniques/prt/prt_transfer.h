@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Baked transfer on the device, and which vertices of which instances it lights.
+// Baked transfer on the device, and which vertices or texels of which instances it lights.
 #pragma once
 
 #include "frame/frame_inputs.h"
@@ -28,10 +28,10 @@ class TransferBuffers {
   const std::vector<TransferChunk>& chunks() const { return chunks_; }
   /// Instances that are lit by transfer, in the order of their rotated lights; order^2 coefficients each.
   const std::vector<std::uint32_t>& litInstances() const { return lit_; }
-  /// Vertices that all chunks write (VertexLight).
+  /// Vertices and texels that all chunks write (VertexLight).
   std::size_t outputVertices() const { return output_vertices_; }
-  /// By instance: where its vertices' light begins, or kUnbaked.
-  const gpu::Buffer& firstOutputs() const { return first_outputs_; }
+  /// By instance: OutputRow.
+  const gpu::Buffer& outputRows() const { return output_rows_; }
   /// Names of meshes that stand in the scene without usable transfer.
   const std::vector<std::string>& unbakedMeshes() const { return unbaked_; }
 
@@ -45,7 +45,7 @@ class TransferBuffers {
   std::vector<TransferChunk> chunks_;
   std::vector<std::uint32_t> lit_;
   std::size_t output_vertices_ = 0;
-  gpu::Buffer first_outputs_;
+  gpu::Buffer output_rows_;
   std::vector<std::string> unbaked_;
 };
 
