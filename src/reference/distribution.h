@@ -38,6 +38,7 @@ class Distribution {
   std::span<const std::uint32_t> starts() const { return starts_; }
   /// The entry that holds the first number of each equal part.
   std::span<const std::uint32_t> first() const { return first_; }
+  std::uint32_t last() const { return last_; }  ///< entry with a weight
 
  private:
   std::int64_t width(std::uint32_t i) const {  // signed: floats are made of those at once

@@ -35,16 +35,20 @@ double rowSine(int r, int height) {
   return std::cos((y - 0.5) / height * kPiDouble);
 }
 
-// Bits of a table of where to begin: about as many parts as entries, half as many where there are many tables.
-int bitsFor(int entries, int less) {
-  return std::clamp(int(std::bit_width(unsigned(entries))) - less, 1, 24);
+constexpr int kMostTexels = 65535;  // each way
+constexpr int kRowBits = 12;        // of the table of where to begin among rows
+
+// The same for the cells of a row: about as many parts as cells.
+int bitsFor(int cells) {
+  return std::clamp(int(std::bit_width(unsigned(cells))) - 1, 1, 16);
 }
 
 void append(const Distribution& choice, std::vector<std::uint32_t>& starts,
-            std::vector<std::uint32_t>& first) {
+            std::vector<std::uint16_t>& first) {
   starts.insert(starts.end(), choice.starts().begin(), choice.starts().end());
   starts.push_back(0xffffffffu);
-  first.insert(first.end(), choice.first().begin(), choice.first().end());
+  for (const std::uint32_t entry : choice.first()) first.push_back(std::uint16_t(entry));
+  first.push_back(std::uint16_t(choice.last()));
 }
 
 }  // namespace
@@ -56,6 +60,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment, int order
   } else {
     fillPixels(environment);
   }
+  for (const glm::vec4& texel : sky_.texels) sky_.importance.push_back(texel.w);
   fillChoices();
 }
 
@@ -102,7 +107,9 @@ void EnvironmentSampler::fillChoices() {
   const int width = sky_.width, height = sky_.height;
   const float half_angle = std::sin(0.25f * kPi / float(height));
   sky_.polar_height = 2.0f * half_angle * half_angle;
-  const int cell_bits = bitsFor(width, 2), row_bits = bitsFor(height + 1, 1);
+  const int cell_bits = bitsFor(width), row_bits = kRowBits;
+  if (width > kMostTexels || height >= kMostTexels)
+    throw Error("environment", "larger than 65535 texels each way");
   sky_.cell_shift = 32 - cell_bits;
   sky_.row_shift = 32 - row_bits;
   std::vector<float> cells(static_cast<std::size_t>(width)), rows;
@@ -127,11 +134,14 @@ void EnvironmentSampler::fillChoices() {
   const Distribution choice(rows, row_bits);
   if (choice.empty()) return;
   append(choice, sky_.row_starts, sky_.row_first);
+  sky_.row_first.push_back(0);
+  sky_.cell_first.push_back(0);
   for (const double row : density) sky_.density.push_back(float(row / total));
 }
 
-void EnvironmentSampler::at(const SkyPlaces& places, const LaneVectors& directions, SkyLight& light) const {
-  lightAt(sky_, places, light);
+void EnvironmentSampler::at(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
+                            SkyLight& light) const {
+  lightAt(sky_, places, mask, light);
   if (projection_.order == 0) return;
   constexpr std::size_t kMost = std::size_t(sh::kMaxOrder) * std::size_t(sh::kMaxOrder);
   std::array<float, kMost * kLanes> basis;

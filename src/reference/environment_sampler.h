@@ -28,17 +28,20 @@ class EnvironmentSampler {
   /// Out of one unit direction.
   Light from(const glm::vec3& direction) const;
 
-  /// Sixteen at once. Where directions lie; at() is better asked some time later, when the light has come from memory.
+  /// Sixteen at once. Where directions lie.
   void find(const LaneVectors& directions, SkyPlaces& places) const { placesOf(sky_, directions, places); }
-  void at(const SkyPlaces& places, const LaneVectors& directions, SkyLight& light) const;
-  /// Directions by their light, first the part of the sphere, then, some time later, the direction in it.
-  void choose(const Sampler::Scramble& scramble, const LaneBits& places, SkyPlaces& cells) const {
-    chooseCells(sky_, scramble, places, cells);
+  /// Directions by their light.
+  void choose(const Sampler::Scramble& scramble, const LaneBits& numbers, SkyPlaces& places,
+              LaneVectors& directions) const {
+    chooseCells(sky_, scramble, numbers, places);
+    placeInCells(sky_, places, directions);
   }
-  void sample(SkyPlaces& cells, LaneVectors& directions, SkyLight& light) const {
-    placeInCells(sky_, cells, directions);
-    at(cells, directions, light);
+  /// Sends for the light of those lanes, a bit each: at() is better asked some time later.
+  void sendFor(const SkyPlaces& places, std::uint32_t mask) const {
+    if (projection_.order == 0) reference::sendFor(sky_, places, mask);
   }
+  /// Light of those lanes.
+  void at(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask, SkyLight& light) const;
 
  private:
   void fillPixels(const Environment& environment);

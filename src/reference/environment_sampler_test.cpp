@@ -76,10 +76,10 @@ struct Drawn {
   SkyLight light;
   Drawn(const EnvironmentSampler& sampler, std::uint32_t first) {
     LaneBits places;
-    SkyPlaces cells;
+    SkyPlaces chosen;
     for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
-    sampler.choose(Sampler(9, 1, 0).scramble(0), places, cells);
-    sampler.sample(cells, directions, light);
+    sampler.choose(Sampler(9, 1, 0).scramble(0), places, chosen, directions);
+    sampler.at(chosen, directions, 0xffffu, light);
   }
 };
 
@@ -125,7 +125,7 @@ TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
         SkyPlaces places;
         SkyLight light;
         sampler.find(directions, places);
-        sampler.at(places, directions, light);
+        sampler.at(places, directions, 0xffffu, light);
         for (int i = 0; i < kLanes; ++i) {
           const EnvironmentSampler::Light want = sampler.from(directions.get(i));
           EXPECT_NEAR(light.pdf.at[i], want.pdf, 1e-3f * want.pdf + 1e-5f);

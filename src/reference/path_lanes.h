@@ -26,6 +26,7 @@ struct PathLanes {
   // The step by lobes.
   LaneVectors direction, step;  ///< the latter: throughput beyond it; 0 where there is none
   LaneFloats pdf;               ///< 1/sr; 0: no step
+  std::uint32_t going;          ///< bit i: lane i has a step that brings something
   bool glossy;                  ///< some lane has a Phong lobe
 };
 
@@ -35,6 +36,8 @@ struct CornerLanes {
   LaneFloats u, v;
   LaneVectors face;  ///< Hit::geometric_normal
 };
+/// All lanes become copies of the first, but for `place` and `slot`.
+void spreadFirstLane(PathLanes& lanes, CornerLanes& corners);
 /// Sets position, origin and both normals, by the rule of sides (frame/README.md); from to_view. The shading normal is not
 /// yet tilted.
 void setVertices(PathLanes& lanes, const CornerLanes& corners);
@@ -54,6 +57,8 @@ struct LightLanes {
   LaneFloats t_far;
   std::uint32_t wanted;  ///< bit i: lane i has light and its ray would leave on the right side
 };
+/// Bit i: lane i's direction lies above its surface.
+std::uint32_t lanesAbove(const PathLanes& lanes, const LaneVectors& directions);
 /// Light from afar: `direction` is set, `radiance` comes with density `pdf`. `both`: joined with the lobes' by the power
 /// heuristic (Veach 1997).
 void lightFromSky(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,

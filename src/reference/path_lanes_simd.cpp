@@ -61,6 +61,30 @@ void verticesKernel(PathLanes& lanes, const CornerLanes& corners) {
   }
 }
 
+HWY_INLINE void spread(LaneFloats& row) {
+  const V first = all(row.at[0]);
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) store(first, row, i);
+}
+HWY_INLINE void spread(LaneVectors& rows) {
+  spread(rows.x);
+  spread(rows.y);
+  spread(rows.z);
+}
+
+void spreadKernel(PathLanes& lanes, CornerLanes& corners) {
+  for (LaneVectors* rows : {&lanes.throughput, &lanes.to_view, &lanes.diffuse, &lanes.specular})
+    spread(*rows);
+  spread(lanes.exponent);
+  spread(lanes.specular_share);
+  for (int c = 0; c < 3; ++c) {
+    spread(corners.positions[c]);
+    spread(corners.normals[c]);
+  }
+  spread(corners.u);
+  spread(corners.v);
+  spread(corners.face);
+}
+
 void mirrorsKernel(PathLanes& lanes) {
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const V3 normal = load(lanes.normal, i), to_view = load(lanes.to_view, i);
@@ -120,6 +144,7 @@ HWY_INLINE V3 stepDirection(const PathLanes& lanes, V u, V v, std::size_t i) {
 }
 
 void stepsKernel(PathLanes& lanes, const Sampler::Scramble& scramble) {
+  lanes.going = 0;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const Numbers n = numbers(scramble, load(lanes.place, i));
     const V3 direction = stepDirection(lanes, toUnit(n.x), toUnit(n.y), i);
@@ -129,7 +154,9 @@ void stepsKernel(PathLanes& lanes, const Sampler::Scramble& scramble) {
     const V3 step = mul(mul(load(lanes.throughput, i), lobes.value), hn::Div(all(1.0f), lobes.pdf));
     store(direction, lanes.direction, i);
     store(hn::IfThenElseZero(above, lobes.pdf), lanes.pdf, i);
-    store(keep(above, step), lanes.step, i);
+    const V3 kept = keep(above, step);
+    store(kept, lanes.step, i);
+    lanes.going |= bitsOf(notBlack(kept), i);
   }
 }
 
@@ -143,6 +170,12 @@ HWY_INLINE V weight(V pdf, V other_pdf, V both) {
 
 HWY_INLINE M isAbove(const PathLanes& lanes, const V3& direction, std::size_t i) {
   return hn::Gt(dot(load(lanes.geometric_normal, i), direction), zero());
+}
+
+void aboveKernel(const PathLanes& lanes, const LaneVectors& directions, std::uint32_t& bits) {
+  bits = 0;
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D()))
+    bits |= bitsOf(isAbove(lanes, load(directions, i), i), i);
 }
 
 // Light and the bits of who has some.
@@ -297,9 +330,11 @@ namespace gloam::reference {
 
 HWY_EXPORT(numbersKernel);
 HWY_EXPORT(verticesKernel);
+HWY_EXPORT(spreadKernel);
 HWY_EXPORT(mirrorsKernel);
 HWY_EXPORT(lobesKernel);
 HWY_EXPORT(stepsKernel);
+HWY_EXPORT(aboveKernel);
 HWY_EXPORT(skyKernel);
 HWY_EXPORT(skyStepsKernel);
 HWY_EXPORT(emittersKernel);
@@ -312,6 +347,9 @@ void numbersOfLanes(const Sampler::Scramble& scramble, const LaneBits& places, L
 void setVertices(PathLanes& lanes, const CornerLanes& corners) {
   HWY_DYNAMIC_DISPATCH(verticesKernel)(lanes, corners);
 }
+void spreadFirstLane(PathLanes& lanes, CornerLanes& corners) {
+  HWY_DYNAMIC_DISPATCH(spreadKernel)(lanes, corners);
+}
 void setMirrors(PathLanes& lanes) {
   HWY_DYNAMIC_DISPATCH(mirrorsKernel)(lanes);
 }
@@ -321,6 +359,11 @@ void chooseSteps(PathLanes& lanes, const Sampler::Scramble& scramble) {
 void lobesOfLanes(const PathLanes& lanes, const LaneVectors& directions, LaneVectors& values,
                   LaneFloats& pdfs) {
   HWY_DYNAMIC_DISPATCH(lobesKernel)(lanes, directions, values, pdfs);
+}
+std::uint32_t lanesAbove(const PathLanes& lanes, const LaneVectors& directions) {
+  std::uint32_t bits;
+  HWY_DYNAMIC_DISPATCH(aboveKernel)(lanes, directions, bits);
+  return bits;
 }
 void lightFromSky(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
                   LightLanes& light) {

@@ -9,6 +9,7 @@
 #include "reference/paths.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "reference/paths_batch.h"
 
@@ -49,7 +50,7 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
 
 // Light in the sky behind the steps.
 void Paths::findSky(Batch& batch) const {
-  environment_->at(batch.sky_by_lobes, batch.lanes.direction, batch.sky);
+  environment_->at(batch.sky_by_lobes, batch.lanes.direction, batch.going(), batch.sky);
   lightOfSteps(batch.lanes, batch.sky.radiance, batch.sky.pdf, both_, batch.step_light);
 }
 
@@ -74,19 +75,22 @@ void Paths::addEmission(Batch& batch, int lane, const trace::Hit& hit) const {
 
 void Paths::traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const {
   const bool to_sky = batch.sources.environment && sample_lobes_;
-  for (int i = 0; i < batch.count; ++i) {
-    if (batch.lanes.step.isZero(i)) continue;
+  const trace::Hit* before = nullptr;  // whose vertices can be sent for while the next ray is traced
+  for (std::uint32_t rest = batch.going(); rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
     const trace::Ray ray = batch.stepOf(i);
     batch.record(ray, false);
     hits[i] = tracer_.closest(ray);
+    if (go_on && before) surfaces_.prefetchVertices(*before);
+    before = nullptr;
     if (!hits[i]) {
       if (to_sky) batch.add(i, kEnvironmentDirect, batch.step_light.get(i));
     } else if (go_on) {
       surfaces_.prefetchCorners(hits[i]);
+      before = &hits[i];
     }
   }
-  for (int i = 0; go_on && i < batch.count; ++i)
-    if (hits[i]) surfaces_.prefetchVertices(hits[i]);
+  if (go_on && before) surfaces_.prefetchVertices(*before);
 }
 
 // To the next vertices; collects what shines there.
@@ -129,10 +133,17 @@ void Paths::walk(Batch& batch) const {
     const bool sky_by_lobes = batch.sources.environment && sample_lobes_;
     const bool by_lobes = sky_by_lobes || (batch.sources.emitters && sample_lobes_);
     // Early: what is in the sky takes its time to come from memory.
-    if (sky_by_light)
-      environment_->choose(batch.scramble(kEnvironment), batch.lanes.place, batch.sky_by_light);
     if (go_on || by_lobes) chooseSteps(batch.lanes, batch.scramble(kLobes));
-    if (sky_by_lobes) environment_->find(batch.lanes.direction, batch.sky_by_lobes);
+    if (sky_by_lobes) {
+      environment_->find(batch.lanes.direction, batch.sky_by_lobes);
+      environment_->sendFor(batch.sky_by_lobes, batch.going());
+    }
+    if (sky_by_light) {
+      environment_->choose(batch.scramble(kEnvironment), batch.lanes.place, batch.sky_by_light,
+                           batch.sky_directions);
+      batch.above = lanesAbove(batch.lanes, batch.sky_directions) & batch.used();
+      environment_->sendFor(batch.sky_by_light, batch.above);
+    }
     if (batch.sources.lamps) fromLamps(batch);
     if (sky_by_light) fromEnvironment(batch);
     if (batch.sources.emitters && sample_lights_) fromEmitters(batch);
@@ -155,22 +166,25 @@ void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
   LaneBits places, x, y;
   for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
   if (textured) numbersOfLanes(batch.sampler.scramble(kPixelPair), places, x, y);
+  lanes.throughput.set(0, glm::vec3(1.0f));
+  lanes.to_view.set(0, point.to_eye);
+  const bool sends = surfaces_.arrive(lanes, batch.arrivals, 0, hit);
+  Surfaces::spreadFirst(lanes, batch.arrivals);
   for (int i = 0; i < int(light.size()); ++i) {
+    PathLight& own = light[std::size_t(i)] = {};
+    lanes.place.at[i] = places.at[i];
+    lanes.slot.at[i] = i;
     glm::vec2 shift(0.0f);
     if (textured) {
       const glm::vec2 place = glm::vec2(Sampler::toUnit(x.at[i]), Sampler::toUnit(y.at[i])) - 0.5f;
       shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
     }
-    PathLight& own = light[std::size_t(i)] = {};
+    batch.arrivals.texture_u.at[i] = point.u + shift.x;
+    batch.arrivals.texture_v.at[i] = point.v + shift.y;
     if (emits) own[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
-    const int lane = batch.count;
-    lanes.place.at[lane] = places.at[i];
-    lanes.slot.at[lane] = i;
-    lanes.throughput.set(lane, glm::vec3(1.0f));
-    lanes.to_view.set(lane, point.to_eye);
-    if (surfaces_.arrive(lanes, batch.arrivals, lane, hit, shift)) ++batch.count;
   }
-  if (batch.count > 0) surfaces_.setVertices(lanes, batch.arrivals);
+  if (sends) batch.count = int(light.size());
+  if (sends) surfaces_.setVertices(lanes, batch.arrivals);
 }
 
 void Paths::trace(const CameraPoint& point, std::uint32_t pixel, std::uint32_t first,

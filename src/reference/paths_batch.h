@@ -28,12 +28,16 @@ struct Paths::Batch {
   Surfaces::Arrivals arrivals{};
   LightLanes toward;
   SkyPlaces sky_by_light, sky_by_lobes;
+  LaneVectors sky_directions;  // by light
+  std::uint32_t above = 0;     // those above the surface, a bit a lane
   SkyLight sky;
   LaneVectors step_light;  // that the steps find in the sky, unless something is in the way
 
   Sampler::Scramble scramble(Pair which) const {
     return sampler.scramble(1u + std::uint32_t(depth) * kPairsAVertex + which);
   }
+  std::uint32_t used() const { return (1u << count) - 1u; }
+  std::uint32_t going() const { return lanes.going & used(); }
   void add(int lane, LightPath direct, const glm::vec3& radiance) {
     light[std::size_t(lanes.slot.at[lane])][std::size_t(direct) + (depth > 0 ? 1u : 0u)] += radiance;
   }

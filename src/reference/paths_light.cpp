@@ -15,7 +15,7 @@ constexpr std::size_t kFewLamps = 8;  // so many all shine on what the camera se
 
 void Paths::castShadows(Batch& batch, LightPath direct) const {
   const LightLanes& toward = batch.toward;
-  for (std::uint32_t rest = toward.wanted & ((1u << batch.count) - 1u); rest != 0; rest &= rest - 1) {
+  for (std::uint32_t rest = toward.wanted & batch.used(); rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
     const trace::Ray ray{batch.lanes.origin.get(i), toward.direction.get(i), 0.0f, toward.t_far.at[i]};
     batch.record(ray, true);
@@ -24,7 +24,8 @@ void Paths::castShadows(Batch& batch, LightPath direct) const {
 }
 
 void Paths::fromEnvironment(Batch& batch) const {
-  environment_->sample(batch.sky_by_light, batch.toward.direction, batch.sky);
+  environment_->at(batch.sky_by_light, batch.sky_directions, batch.above, batch.sky);
+  batch.toward.direction = batch.sky_directions;
   lightFromSky(batch.lanes, batch.sky.radiance, batch.sky.pdf, both_, batch.toward);
   castShadows(batch, kEnvironmentDirect);
 }

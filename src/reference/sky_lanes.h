@@ -14,14 +14,17 @@ struct SkyTable {
   int width = 0, height = 0;  ///< texels
   /// (width + 1) x (height + 2), a border around; w: importance. Cell (x, y) lies between the texels (x, y) and (x + 1, y + 1).
   std::vector<glm::vec4> texels;
+  std::vector<float> importance;  ///< of the texels, by itself
   float cos_rotation = 1.0f, sin_rotation = 0.0f;
   float turned = 0.5f;        ///< longitude 0 in the picture, as a share of its width
   float polar_height = 0.0f;  ///< of the caps above and below the outermost texel centres
   std::vector<float>
       density;  ///< of each row of cells; times importance (/ cos elevation, but at the poles): the density
   /// Inverse of the cumulative distribution of rows, and of the cells in each of them (Distribution's, one after another,
-  /// each closed by the largest number).
-  std::vector<std::uint32_t> row_starts, row_first, cell_starts, cell_first;
+  /// starts closed by the largest number, first by the
+  /// last entry, and by one more at the end).
+  std::vector<std::uint32_t> row_starts, cell_starts;
+  std::vector<std::uint16_t> row_first, cell_first;
   int row_shift = 0, cell_shift = 0;
 };
 
@@ -36,13 +39,15 @@ struct SkyLight {
   LaneFloats pdf;  ///< 1/sr
 };
 
-/// Cells by their light, from numbers as Sampler::numbers gives them; x and y are what is left of those. Cells are on their
-/// way from memory when this returns, as they are with the next: use them later.
+/// Cells by their light, from numbers as Sampler::numbers gives them; x and y are what is left of those.
 void chooseCells(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& places,
                  SkyPlaces& cells);
-void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places);
 /// Places within chosen cells with the bilinear density, and the directions to them.
 void placeInCells(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions);
-void lightAt(const SkyTable& sky, const SkyPlaces& places, SkyLight& light);
+void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places);
+/// Sends for the light of those lanes (a bit each): lightAt is better called some time later.
+void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask);
+/// Of those lanes; 0 in all others.
+void lightAt(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light);
 
 }  // namespace gloam::reference

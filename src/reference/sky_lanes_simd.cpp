@@ -14,6 +14,8 @@
 #include <hwy/highway.h>
 #include <hwy/cache_control.h>
 // clang-format on
+#include <bit>
+
 #include "reference/lanes_simd.h"
 #include "reference/sky_lanes.h"
 
@@ -43,39 +45,58 @@ struct Choice {
   V rest;
 };
 
-// Distribution::choose in tables that begin at `base` and `first_base`. `number` is below the largest.
+struct Range {
+  VI low, high;
+};
+// Two neighbours of a table.
+HWY_INLINE Range pairOf(const std::vector<std::uint16_t>& table, VI index) {
+  const auto* base = reinterpret_cast<const std::uint32_t*>(table.data());
+  const VU both = hn::GatherOffset(DU(), base, hn::Add(index, index));
+  return {asInt(hn::And(both, allBits(0xffffu))), asInt(hn::ShiftRight<16>(both))};
+}
+
+// Distribution::choose in tables that begin at `base` and `first_base`, by halves. `number` is below the largest.
 HWY_INLINE Choice chooseIn(const std::vector<std::uint32_t>& starts, VI base,
-                           const std::vector<std::uint32_t>& first, VI first_base, int shift, VU number) {
+                           const std::vector<std::uint16_t>& first, VI first_base, int shift, VU number) {
   const DI di;
   const VI one = hn::Set(di, 1);
-  VI index =
-      hn::Add(base, asInt(gather(first, hn::Add(first_base, asInt(hn::ShiftRightSame(number, shift))))));
-  VU start = gather(starts, index);
-  while (true) {
-    const VU next = gather(starts, hn::Add(index, one));
-    const auto inside = hn::Gt(next, number);
-    if (hn::AllTrue(DU(), inside)) {
-      const V rest = hn::Div(asFloat(hn::Sub(number, start)), asFloat(hn::Sub(next, start)));
-      return {hn::Sub(index, base), hn::Min(rest, all(0x1.fffffep-1f))};
-    }
-    index = hn::IfThenElse(hn::RebindMask(di, inside), index, hn::Add(index, one));
-    start = hn::IfThenElse(inside, start, next);
+  auto [low, high] = pairOf(first, hn::Add(first_base, asInt(hn::ShiftRightSame(number, shift))));
+  low = hn::Add(base, low);
+  high = hn::Add(base, high);
+  while (!hn::AllFalse(di, hn::Lt(low, high))) {
+    const VI middle = hn::ShiftRight<1>(hn::Add(hn::Add(low, high), one));
+    const auto beyond = hn::RebindMask(di, hn::Gt(gather(starts, middle), number));
+    low = hn::IfThenElse(beyond, low, middle);
+    high = hn::IfThenElse(beyond, hn::Sub(middle, one), high);
   }
+  const VU start = gather(starts, low), next = gather(starts, hn::Add(low, one));
+  const V rest = hn::Div(asFloat(hn::Sub(number, start)), asFloat(hn::Sub(next, start)));
+  return {hn::Sub(low, base), hn::Min(rest, all(0x1.fffffep-1f))};
+}
+
+struct Columns {
+  VI row, base, first_base;
+  V rest;
+  VU number;
+};
+HWY_INLINE Columns rowOf(const SkyTable& sky, const Sampler::Scramble& scramble, VU place) {
+  const DI di;
+  const VU most = allBits(0xfffffffeu);
+  const Numbers n = numbers(scramble, place);
+  const Choice row =
+      chooseIn(sky.row_starts, hn::Zero(di), sky.row_first, hn::Zero(di), sky.row_shift, hn::Min(n.y, most));
+  return {row.index, hn::Mul(row.index, hn::Set(di, sky.width + 1)),
+          hn::Mul(row.index, hn::Set(di, (1 << (32 - sky.cell_shift)) + 1)), row.rest, hn::Min(n.x, most)};
 }
 
 void cellsKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& places,
                  SkyPlaces& cells) {
-  const DI di;
-  const VU most = allBits(0xfffffffeu);
-  const VI row_stride = hn::Set(di, sky.width + 1), first_stride = hn::Set(di, 1 << (32 - sky.cell_shift));
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const Numbers n = numbers(scramble, load(places, i));
-    const Choice row = chooseIn(sky.row_starts, hn::Zero(di), sky.row_first, hn::Zero(di), sky.row_shift,
-                                hn::Min(n.y, most));
-    const Choice column = chooseIn(sky.cell_starts, hn::Mul(row.index, row_stride), sky.cell_first,
-                                   hn::Mul(row.index, first_stride), sky.cell_shift, hn::Min(n.x, most));
+    const Columns row = rowOf(sky, scramble, load(places, i));
+    const Choice column =
+        chooseIn(sky.cell_starts, row.base, sky.cell_first, row.first_base, sky.cell_shift, row.number);
     store(column.index, cells.cell_x, i);
-    store(row.index, cells.cell_y, i);
+    store(row.row, cells.cell_y, i);
     store(column.rest, cells.x, i);
     store(row.rest, cells.y, i);
   }
@@ -111,15 +132,14 @@ HWY_INLINE Elevation atPole(VI cell_y, V y, const Elevation& elsewhere, M pole, 
 void placeKernel(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions) {
   const D d;
   const DI di;
-  const float* importance = &sky.texels[0].w;
-  const float* below = &sky.texels[std::size_t(sky.width + 1)].w;
+  const float *importance = sky.importance.data(), *below = importance + sky.width + 1;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const VI cell_x = load(places.cell_x, i), cell_y = load(places.cell_y, i);
-    const VI texel = hn::ShiftLeft<2>(hn::Add(hn::Mul(cell_y, hn::Set(di, sky.width + 1)), cell_x));
+    const VI texel = hn::Add(hn::Mul(cell_y, hn::Set(di, sky.width + 1)), cell_x);
     const V upper_left = hn::GatherIndex(d, importance, texel);
-    const V upper_right = hn::GatherIndex(d, importance + 4, texel);
+    const V upper_right = hn::GatherIndex(d, importance + 1, texel);
     const V lower_left = hn::GatherIndex(d, below, texel);
-    const V lower_right = hn::GatherIndex(d, below + 4, texel);
+    const V lower_right = hn::GatherIndex(d, below + 1, texel);
     Elevation at;
     at.y =
         sampleLinear(hn::Add(upper_left, upper_right), hn::Add(lower_left, lower_right), load(places.y, i));
@@ -168,11 +188,12 @@ void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& p
 
 // ---- Light ----------------------------------------------------------------------------------------------------------
 
-void lightKernel(const SkyTable& sky, const SkyPlaces& places, SkyLight& light) {
+void lightKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light) {
   const D d;
   const hn::CappedTag<float, 4> four;
-  HWY_ALIGN float texels[4 * kLanes];
-  for (std::size_t i = 0; i < kLanes; ++i) {
+  HWY_ALIGN float texels[4 * kLanes] = {};
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
     const auto cell =
         std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) + std::size_t(places.cell_x.at[i]);
     const float *upper = &sky.texels[cell].x, *lower = upper + 4 * (sky.width + 1);
@@ -201,19 +222,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace gloam::reference {
-namespace {
-
-void prefetch(const SkyTable& sky, const SkyPlaces& places) {
-  for (int i = 0; i < kLanes; ++i) {
-    const glm::vec4* texel = &sky.texels[std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) +
-                                         std::size_t(places.cell_x.at[i])];
-    hwy::Prefetch(texel);
-    hwy::Prefetch(texel + sky.width + 1);
-  }
-}
-
-}  // namespace
-
 HWY_EXPORT(cellsKernel);
 HWY_EXPORT(placeKernel);
 HWY_EXPORT(findKernel);
@@ -222,17 +230,24 @@ HWY_EXPORT(lightKernel);
 void chooseCells(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& places,
                  SkyPlaces& cells) {
   HWY_DYNAMIC_DISPATCH(cellsKernel)(sky, scramble, places, cells);
-  prefetch(sky, cells);
 }
 void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places) {
   HWY_DYNAMIC_DISPATCH(findKernel)(sky, directions, places);
-  prefetch(sky, places);
 }
 void placeInCells(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions) {
   HWY_DYNAMIC_DISPATCH(placeKernel)(sky, places, directions);
 }
-void lightAt(const SkyTable& sky, const SkyPlaces& places, SkyLight& light) {
-  HWY_DYNAMIC_DISPATCH(lightKernel)(sky, places, light);
+void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask) {
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    const glm::vec4* texel = &sky.texels[std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) +
+                                         std::size_t(places.cell_x.at[i])];
+    hwy::Prefetch(texel);
+    hwy::Prefetch(texel + sky.width + 1);
+  }
+}
+void lightAt(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light) {
+  HWY_DYNAMIC_DISPATCH(lightKernel)(sky, places, mask, light);
 }
 
 }  // namespace gloam::reference

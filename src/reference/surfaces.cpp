@@ -39,6 +39,11 @@ std::vector<glm::vec4> worldTangents(const std::vector<glm::vec4>& given, const 
   return tangents;
 }
 
+template <class Visit>
+void forLanes(std::uint32_t mask, const Visit& visit) {
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) visit(std::countr_zero(rest));
+}
+
 }  // namespace
 
 Surfaces::Surface Surfaces::makeSurface(const Instance& instance, trace::Tracer::Triangles triangles) const {
@@ -110,37 +115,102 @@ bool Surfaces::arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trac
   if (s.varied) {
     arrivals.instance[lane] = hit.instance;
     arrivals.triangle[lane] = hit.triangle;
-    arrivals.texture_shift[lane] = texture_shift;
+    arrivals.texture_u.at[lane] = hit.u + texture_shift.x;
+    arrivals.texture_v.at[lane] = hit.v + texture_shift.y;
   }
   return !s.uniform || !s.lobes.black;
 }
 
-void Surfaces::setVaried(PathLanes& lanes, int lane, const Arrivals& arrivals) const {
-  const Surface& s = instances_[std::size_t(arrivals.instance[lane])];
-  const glm::uvec3 corners = s.triangles.vertices[arrivals.triangle[lane]];
-  const float u = arrivals.corners.u.at[lane], v = arrivals.corners.v.at[lane];
-  const float texture_u = u + arrivals.texture_shift[lane].x, texture_v = v + arrivals.texture_shift[lane].y;
+void Surfaces::spreadFirst(PathLanes& lanes, Arrivals& arrivals) {
+  spreadFirstLane(lanes, arrivals.corners);
+  arrivals.varied = arrivals.varied & 1u ? 0xffffu : 0u;
+  std::fill_n(arrivals.instance + 1, kLanes - 1, arrivals.instance[0]);
+  std::fill_n(arrivals.triangle + 1, kLanes - 1, arrivals.triangle[0]);
+}
+
+void Surfaces::setMaterial(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
+                           const Surface& s) const {
   const Material& m = *s.material;
-  if (!s.uniform) {
-    glm::vec3 color = glm::vec3(m.base_color) * glm::vec3(s.base_color.at(corners, texture_u, texture_v));
-    if (s.colors) color *= glm::vec3(between(s.mesh->colors, corners, u, v));
-    const glm::vec4 map = s.metallic_roughness.at(corners, texture_u, texture_v);
-    setLobes(lanes, lane, readyLobes(color, m.metallic * map.b, m.roughness * map.g, m.specular));
+  MaterialLanes material;
+  material.base_color = glm::vec3(m.base_color);
+  material.metallic = m.metallic;
+  material.roughness = m.roughness;
+  material.specular = m.specular;
+  s.read(s.base_color, arrivals, mask, material.color);
+  s.read(s.metallic_roughness, arrivals, mask, material.metallic_roughness);
+  if (s.colors) {
+    forLanes(mask, [&](int lane) {
+      const glm::uvec3& corners = s.triangles.vertices[arrivals.triangle[lane]];
+      const float u = arrivals.corners.u.at[lane], v = arrivals.corners.v.at[lane];
+      material.color.set(lane, material.color.get(lane) * glm::vec3(between(s.mesh->colors, corners, u, v)));
+    });
   }
-  if (!s.tangents.empty()) {
-    const glm::vec3 texel(s.normal.at(corners, texture_u, texture_v));
-    // In the frame of the side on which the mesh's normals are: turned round as a whole.
-    const glm::vec3 smooth = between(s.normals, corners, u, v), seen = lanes.normal.get(lane);
-    const float side = glm::dot(smooth, seen) < 0.0f ? -1.0f : 1.0f;
-    const glm::vec4 tangent = between(s.tangents, corners, u, v);
-    lanes.normal.set(lane, side * trace::mappedNormal(side * seen, tangent, texel, m.normal_scale));
+  reference::setLobes(lanes, mask, material);
+}
+
+void Surfaces::setNormals(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
+                          const Surface& s) const {
+  TangentLanes map;
+  map.scale = s.material->normal_scale;
+  s.read(s.normal, arrivals, mask, map.texel);
+  forLanes(mask, [&](int lane) {
+    const glm::uvec3& corners = s.triangles.vertices[arrivals.triangle[lane]];
+    const glm::vec4 tangent =
+        between(s.tangents, corners, arrivals.corners.u.at[lane], arrivals.corners.v.at[lane]);
+    map.tangent.set(lane, glm::vec3(tangent));
+    map.handedness.at[lane] = tangent.w;
+  });
+  tiltNormals(lanes, mask, arrivals.corners, map);
+}
+
+void Surfaces::Surface::read(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
+                             LaneVectors& color) const {
+  if (!texture) {
+    forLanes(mask, [&](int lane) { color.set(lane, glm::vec3(1.0f)); });
+    return;
+  }
+  LaneFloats u, v;
+  setCoordinates(texture, arrivals, mask, u, v);
+  readTexture(texture.table(), u, v, color);
+}
+
+void Surfaces::Surface::setCoordinates(const TextureReader& texture, const Arrivals& arrivals,
+                                       std::uint32_t mask, LaneFloats& u, LaneFloats& v) const {
+  u = v = {};
+  forLanes(mask, [&](int lane) {
+    const glm::vec2 uv = texture.coordinates(triangles.vertices[arrivals.triangle[lane]],
+                                             arrivals.texture_u.at[lane], arrivals.texture_v.at[lane]);
+    u.at[lane] = uv.x;
+    v.at[lane] = uv.y;
+  });
+}
+
+// Lanes of one surface after the other.
+template <class Visit>
+void Surfaces::forSurfaces(const Arrivals& arrivals, const Visit& visit) const {
+  for (std::uint32_t mask = arrivals.varied; mask != 0;) {
+    const std::int32_t instance = arrivals.instance[std::countr_zero(mask)];
+    std::uint32_t same = 0;
+    forLanes(mask, [&](int lane) { same |= std::uint32_t(arrivals.instance[lane] == instance) << lane; });
+    visit(instances_[std::size_t(instance)], same);
+    mask &= ~same;
   }
 }
 
 void Surfaces::setVertices(PathLanes& lanes, const Arrivals& arrivals) const {
+  forSurfaces(arrivals, [&](const Surface& s, std::uint32_t mask) {
+    for (const TextureReader* texture : {&s.base_color, &s.metallic_roughness, &s.normal}) {
+      if (!*texture) continue;
+      LaneFloats u, v;
+      s.setCoordinates(*texture, arrivals, mask, u, v);
+      sendForTexture(texture->table(), u, v, mask);
+    }
+  });
   reference::setVertices(lanes, arrivals.corners);
-  for (std::uint32_t rest = arrivals.varied; rest != 0; rest &= rest - 1)
-    setVaried(lanes, std::countr_zero(rest), arrivals);
+  forSurfaces(arrivals, [&](const Surface& s, std::uint32_t mask) {
+    if (!s.uniform) setMaterial(lanes, arrivals, mask, s);
+    if (!s.tangents.empty()) setNormals(lanes, arrivals, mask, s);
+  });
   lanes.glossy = arrivals.glossy;
   if (lanes.glossy) setMirrors(lanes);
 }

@@ -8,8 +8,7 @@
 #include <gloam/scene.h>
 
 #include "reference/lobes.h"
-#include "reference/path_lanes.h"
-#include "reference/texture_reader.h"
+#include "reference/material_lanes.h"
 #include "trace/tracer.h"
 
 namespace gloam::reference {
@@ -25,11 +24,13 @@ class Surfaces {
     std::uint32_t varied = 0;  ///< bit i: lane i's lobes or normal come from textures or vertex colours
     bool glossy = false;
     std::int32_t instance[kLanes], triangle[kLanes];  ///< of varied lanes
-    glm::vec2 texture_shift[kLanes];  ///< the same; moves textures alone, in the triangle's coordinates
+    LaneFloats texture_u, texture_v;                  ///< the same: where textures are read
   };
   /// One more vertex. False where nothing is sent back: then the lane may be taken by another.
   bool arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trace::Hit& hit,
               const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
+  /// All lanes become copies of the first, but for `place`, `slot` and where textures are read.
+  static void spreadFirst(PathLanes& lanes, Arrivals& arrivals);
   /// The vertices of all lanes, from to_view and what has arrived.
   void setVertices(PathLanes& lanes, const Arrivals& arrivals) const;
   /// Sends for what arrive() will need: first which vertices, then, when that has come, the vertices.
@@ -73,9 +74,18 @@ class Surfaces {
     bool uniform = true;  // neither maps nor vertex colours in the lobes
     bool varied = false;  // not uniform, or a normal map
     bool textured = false, emits = false, holes = false;
+    void setCoordinates(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
+                        LaneFloats& u, LaneFloats& v) const;
+    void read(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
+              LaneVectors& color) const;
   };
   Surface makeSurface(const Instance& instance, trace::Tracer::Triangles triangles) const;
-  void setVaried(PathLanes& lanes, int lane, const Arrivals& arrivals) const;
+  template <class Visit>
+  void forSurfaces(const Arrivals& arrivals, const Visit& visit) const;
+  void setMaterial(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
+                   const Surface& surface) const;
+  void setNormals(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
+                  const Surface& surface) const;
   static void setLobes(PathLanes& lanes, int lane, const LobesReady& lobes);
 
   const Scene& scene_;

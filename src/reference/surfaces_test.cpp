@@ -123,6 +123,13 @@ TEST(TextureReader, IsTheFunctionForOnePoint) {
             const glm::vec2 u = 3.0f * sampling::r2(i) - 1.0f;
             const glm::vec4 want = trace::sampleTexture(scene, slot, mesh, {0, u.x, u.y}, srgb);
             EXPECT_LT(glm::length(reader.at({0, 1, 2}, u.x, u.y) - want), 1e-4f);
+            const glm::vec2 uv = reader.coordinates({0, 1, 2}, u.x, u.y);
+            LaneFloats x{}, y{};
+            x.at[i % kLanes] = uv.x;
+            y.at[i % kLanes] = uv.y;
+            LaneVectors lanes;
+            readTexture(reader.table(), x, y, lanes);
+            EXPECT_LT(glm::length(lanes.get(int(i % kLanes)) - glm::vec3(want)), 1e-4f);
           }
         }
       }

@@ -8,6 +8,18 @@
 
 namespace gloam::reference {
 
+struct TextureTable {
+  struct Axis {
+    Wrap wrap = Wrap::kRepeat;
+    int size = 1;
+  };
+  const std::uint8_t* texels = nullptr;  ///< rgba
+  const float* linear = nullptr;         ///< of each colour byte
+  bool srgb = false, nearest = false;
+  glm::vec2 from_u{1.0f, 0.0f}, from_v{0.0f, 1.0f}, shift{0.0f};  ///< KHR_texture_transform
+  Axis across, down;
+};
+
 class TextureReader {
  public:
   /// Reads nothing: white.
@@ -15,31 +27,25 @@ class TextureReader {
   /// Keeps references to both.
   TextureReader(const Scene& scene, const TextureSlot& slot, const Mesh& mesh, bool srgb);
 
-  explicit operator bool() const { return texels_ != nullptr; }
-  /// Linear, 0 to 1, at (1 - u - v), u, v of a triangle's corners; these may lie beyond the triangle.
+  explicit operator bool() const { return table_.texels != nullptr; }
+  /// Linear, 0 to 1, at (1 - u - v), u, v of a triangle's corners; these may lie beyond the triangle. material_lanes.h has the
+  /// same for sixteen.
   glm::vec4 at(const glm::uvec3& corners, float u, float v) const {
-    return texels_ ? read(corners, u, v) : glm::vec4(1.0f);
+    return table_.texels ? read(coordinates(corners, u, v)) : glm::vec4(1.0f);
   }
+  /// Of the mesh's vertices; null: (0, 0) all over.
+  const glm::vec2* uvs() const { return uvs_; }
+  glm::vec2 coordinates(const glm::uvec3& corners, float u, float v) const {
+    if (!uvs_) return glm::vec2(0.0f);
+    return uvs_[corners.x] * (1.0f - u - v) + uvs_[corners.y] * u + uvs_[corners.z] * v;
+  }
+  const TextureTable& table() const { return table_; }
 
  private:
-  struct Axis {
-    Wrap wrap = Wrap::kRepeat;
-    int size = 1;
-    struct Pair {
-      int first, second;
-      float rest;  // how far from the first to the second
-    };
-    Pair at(float coordinate, bool nearest) const;
-    int wrapped(int texel) const;
-  };
-  glm::vec4 read(const glm::uvec3& corners, float u, float v) const;
+  glm::vec4 read(const glm::vec2& uv) const;
 
-  const std::uint8_t* texels_ = nullptr;  // rgba
-  const glm::vec2* uvs_ = nullptr;        // of the mesh's vertices; null: (0, 0) all over
-  const float* linear_ = nullptr;         // of each colour byte
-  glm::vec2 column_u_{1.0f, 0.0f}, column_v_{0.0f, 1.0f}, shift_{0.0f};
-  Axis across_, down_;
-  bool nearest_ = false;
+  TextureTable table_;
+  const glm::vec2* uvs_ = nullptr;
 };
 
 }  // namespace gloam::reference
