@@ -85,7 +85,7 @@ int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
     throw Error("--output", "is a plot, which --paper and --scaling draw");
   if (choice.paper) return benchPaper(choice, console);
   if (choice.scaling) return benchScaling(choice, console);
-  return suite != nullptr ? suite->run(choice.scene.name, console) : benchTechnique(choice, console);
+  return suite != nullptr ? suite->run(choice.scene, console) : benchTechnique(choice, console);
 }
 
 std::function<int()> declareBench(CLI::App& app, Console& console) {

@@ -11,6 +11,7 @@
 
 #include <thread>
 
+#include "bench_relight.h"
 #include "json.h"
 #include "scene_inputs.h"
 #include "verb.h"
@@ -44,7 +45,7 @@ Json exponentialErrors(const std::vector<sh::ExpErrorRow>& rows) {
   return json;
 }
 
-int benchSphericalHarmonics(const std::string&, Console& console) {
+int benchSphericalHarmonics(const SceneChoice&, Console& console) {
   const std::vector<sh::BenchRow> rows = sh::bench(9, 0.01, console.progress());
   const std::vector<sh::ExpErrorRow> errors = sh::expErrors(console.progress());
   console.endProgress();
@@ -67,25 +68,27 @@ int benchSphericalHarmonics(const std::string&, Console& console) {
   return kDone;
 }
 
-int benchBaking(const std::string& scene_name, Console& console) {
-  const Scene scene = loadSceneToDraw({.name = scene_name}, console);
+int benchBaking(const SceneChoice& choice, Console& console) {
+  const Scene scene = loadSceneToDraw(choice, console);
   console.release();
   const PrtBakeBench result = benchBake(scene, {});
   const PrtBakeBench glossy =
       benchBake(scene, {.kind = TransferKind::kShadowed, .glossy = GlossyMeshes::kAll});
   if (!console.json) {
     console.print(fmt::format("{}: {} triangles, {} points, {:.3g} rays a round, {} rounds, all cores",
-                              scene_name, countText(result.triangles), countText(result.points),
+                              choice.name, countText(result.triangles), countText(result.points),
                               double(result.rays), result.rounds));
     console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
     console.print(fmt::format("first pass      {:8.2f} Mrays/s", result.bake_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", result.ratio));
+    console.print(fmt::format("first bounce    {:8.3f} of the first pass's time", result.first_bounce));
+    console.print(fmt::format("later bounces   {:8.3f} of it, each", result.later_bounce));
     console.print(fmt::format("with matrices   {:8.2f} Mrays/s", glossy.bake_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", glossy.ratio));
     return kDone;
   }
   console.print(jsonText({{"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
-                          {"scene", scene_name},
+                          {"scene", choice.name},
                           {"triangles", result.triangles},
                           {"points", result.points},
                           {"rays", result.rays},
@@ -93,13 +96,15 @@ int benchBaking(const std::string& scene_name, Console& console) {
                           {"bare_mrays_s", result.bare_mrays_s},
                           {"bake_mrays_s", result.bake_mrays_s},
                           {"ratio", result.ratio},
+                          {"first_bounce", result.first_bounce},
+                          {"later_bounce", result.later_bounce},
                           {"glossy_bake_mrays_s", glossy.bake_mrays_s},
                           {"glossy_ratio", glossy.ratio}}));
   return kDone;
 }
 
-int benchReferencePaths(const std::string& scene_name, Console& console) {
-  const Scene scene = loadSceneToDraw({.name = scene_name}, console);
+int benchReferencePaths(const SceneChoice& choice, Console& console) {
+  const Scene scene = loadSceneToDraw(choice, console);
   const Environment environment = chooseEnvironment(scene, {}, console);
   const PosedScene posed = pose(scene, 0.0f);
   const PosedCamera camera = chooseCamera(posed, {}, console);
@@ -108,7 +113,7 @@ int benchReferencePaths(const std::string& scene_name, Console& console) {
   if (!console.json) {
     console.print(
         fmt::format("{}: {} triangles, {} points, {} samples, {:.3g} rays a round, {} rounds, all cores",
-                    scene_name, countText(result.triangles), countText(result.points), result.samples,
+                    choice.name, countText(result.triangles), countText(result.points), result.samples,
                     double(result.rays), result.rounds));
     console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
     console.print(fmt::format("paths           {:8.2f} Mrays/s", result.paths_mrays_s));
@@ -116,7 +121,7 @@ int benchReferencePaths(const std::string& scene_name, Console& console) {
     return kDone;
   }
   console.print(jsonText({{"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
-                          {"scene", scene_name},
+                          {"scene", choice.name},
                           {"triangles", result.triangles},
                           {"points", result.points},
                           {"samples", result.samples},
@@ -133,6 +138,7 @@ constexpr BenchSuite kSuites[] = {
     {"reference", "the path tracer's ray rate against that of the tracing library alone",
      benchReferencePaths},
     {"bake", "the baker's ray rate against that of the tracing library alone", benchBaking},
+    {"relight", "what a change of light costs, against the device's own copies", benchRelight},
 };
 
 }  // namespace

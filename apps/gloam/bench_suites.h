@@ -5,6 +5,7 @@
 #include <span>
 
 #include "console.h"
+#include "scene_inputs.h"
 
 namespace gloam::cli {
 
@@ -12,7 +13,7 @@ namespace gloam::cli {
 struct BenchSuite {
   const char* name;
   const char* summary;
-  int (*run)(const std::string& scene, Console& console);
+  int (*run)(const SceneChoice& scene, Console& console);
 };
 std::span<const BenchSuite> benchSuites();
 

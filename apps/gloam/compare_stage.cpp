@@ -38,7 +38,7 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
                                  std::optional<int> reference_bounces, Console& console) {
   CompareStage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
-  stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.environment = chooseEnvironment(stage.scene, choice.light, console, choice.view.time_s);
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.camera = chooseCamera(stage.posed, choice.view, console);
   stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage.scene, contenders));

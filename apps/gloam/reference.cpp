@@ -43,7 +43,9 @@ struct ReferenceChoice {
 /// What all frames have in common.
 struct Stage {
   Scene scene;
-  Environment environment;
+  Environment environment;  ///< without --light
+  std::string environment_name;
+  LightChoice light;
   PosedCamera camera;
   ReferenceOptions options;
   ReferenceGoal goal;
@@ -99,9 +101,11 @@ ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, 
 Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame>& frames, Console& console) {
   Stage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
-  stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.light = choice.light;
+  stage.environment = chooseBaseEnvironment(stage.scene, choice.light, console);
+  stage.environment_name = environmentAt(stage.environment, choice.light, frames.front().time_s).name;
   stage.camera = chooseCamera(pose(stage.scene, frames.front().time_s), choice.view, console);
-  if (choice.motion.animate && stage.scene.animations.empty()) {
+  if (choice.motion.animate && stage.scene.animations.empty() && !choice.light.lights.moves()) {
     console.remark("--animate: the scene holds no animation");
   }
   stage.goal = goalOf(choice, checkpointOf(choice, frames.size()), console);
@@ -136,8 +140,9 @@ LayeredImage renderFrame(const Stage& stage, const PlannedFrame& frame, bool par
   const fs::path& checkpoint = stage.goal.checkpoint;
   ReferenceReport report;
   try {
-    LayeredImage image = renderReference(stage.scene, posed, camera, stage.environment, stage.options,
-                                         stage.goal, parts, progress, &report);
+    LayeredImage image = renderReference(stage.scene, posed, camera,
+                                         environmentAt(stage.environment, stage.light, frame.time_s),
+                                         stage.options, stage.goal, parts, progress, &report);
     total.add(image, report);
     return image;
   } catch (const Error& error) {
@@ -165,7 +170,7 @@ void printResult(const ReferenceChoice& choice, const Stage& stage, const Total&
   Json outputs = Json::array();
   for (const fs::path& file : files) outputs.push_back(file.string());
   console.print(jsonText({{"scene", choice.scene.name},
-                          {"environment", stage.environment.name},
+                          {"environment", stage.environment_name},
                           {"environment_order", stage.options.environment_order},
                           {"light", total.light},
                           {"sources", total.sources},

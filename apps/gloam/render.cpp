@@ -41,7 +41,7 @@ std::string defaultOutput(const RenderChoice& choice) {
 struct Stage {
   Scene scene;
   const TechniqueInfo* technique = nullptr;
-  Environment environment;
+  Environment base, environment;  ///< without --light, and with it in the first frame
   PosedCamera camera;
   RenderOptions options;
 };
@@ -51,9 +51,10 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.scene = loadSceneToDraw(choice.scene, console);
   stage.technique = &chooseTechnique(choice.technique, stage.scene);
   stage.options.settings = settingsFor(*stage.technique, choice.technique);
-  stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.base = chooseBaseEnvironment(stage.scene, choice.light, console);
+  stage.environment = environmentAt(stage.base, choice.light, first_time_s);
   stage.camera = chooseCamera(pose(stage.scene, first_time_s), choice.view, console);
-  if (choice.motion.animate && stage.scene.animations.empty()) {
+  if (choice.motion.animate && stage.scene.animations.empty() && !choice.light.lights.moves()) {
     console.remark("--animate: the scene holds no animation");
   }
   for (const auto& [name, values] : choice.technique.values) {
@@ -132,10 +133,10 @@ int runRender(RenderChoice choice, Console& console) {
     progress.report(double(i) / double(frames.size()), fmt::format("frame {} of {}", i + 1, frames.size()));
     const PosedScene posed = pose(stage.scene, frames[i].time_s);
     const PosedCamera camera = orbit(stage.camera, posed, frames[i].orbit_rad);
-    if (choice.motion.turn_sky_deg != 0.0f && !stage.environment.empty()) {
-      Environment turned = stage.environment;
+    if ((choice.motion.turn_sky_deg != 0.0f || choice.light.lights.moves()) && !stage.environment.empty()) {
+      Environment turned = stage.base;
       turned.rotation_rad += frames[i].sky_rad;
-      renderer.setEnvironment(turned);
+      renderer.setEnvironment(environmentAt(turned, choice.light, frames[i].time_s));
     }
     const auto started = std::chrono::steady_clock::now();
     RenderedFrame frame = renderer.render(posed, camera, stage.options);
@@ -194,6 +195,8 @@ const Verb kRenderVerb = {
     "gloam render model.glb --eye 2,1,3 --target 0,0.5,0 --fov 35 -o model.exr | another camera; linear "
     "light, all layers\n"
     "gloam render model.glb --orbit 48 --size 640x360 -o turn.mp4 | a turntable\n"
+    "gloam render bunny_prt.glb --light 'disc?azimuth=0:0,4:360&radius=10' --animate 0:4 -o day.mp4 | a lamp "
+    "from afar that goes round\n"
     "gloam render walk.glb --animate 0:4 --fps 30 -o frames | an animation as frames/frame_0000.png and so "
     "on\n",
     declareRender};

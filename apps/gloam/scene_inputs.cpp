@@ -100,6 +100,18 @@ void addLightOptions(CLI::App& app, LightChoice& choice) {
       ->group("Light");
   addNumber(app, "--env-intensity", choice.intensity, {0.0, 1e6}, "FACTOR", "multiplies that light")
       ->group("Light");
+  const auto addLights = [&choice](const std::vector<std::string>& texts) {
+    choice.light_texts = texts;
+    choice.lights = AnimatedLights::parse(texts);
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--light", addLights,
+         "adds a distant light, as often as wanted: disc?…, constant?…, gradient?…, sky:NAME?…, "
+         "probe:FILE?…, or a .json "
+         "list of them; values are numbers or keys, azimuth=0:0,4:360")
+      ->type_name("LIGHT")
+      ->allow_extra_args(false)
+      ->group("Light");
 }
 
 void addViewOptions(CLI::App& app, ViewChoice& choice) {
@@ -156,11 +168,11 @@ void remarkLostLight(const Scene& scene, Console& console) {
                              name.empty() ? "" : fmt::format(", {},", name)));
 }
 
-Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console) {
+Environment chooseBaseEnvironment(const Scene& scene, const LightChoice& choice, Console& console) {
   Environment environment;
   if (choice.environment.empty()) {
     environment = scene.environment;
-    if (environment.empty() && scene.lights.empty()) {
+    if (environment.empty() && scene.lights.empty() && choice.lights.empty()) {
       environment = loadEnvironment(kDefaultSky);
       console.remark(fmt::format("no light in the scene and no --env: lit by {}", kDefaultSky));
     }
@@ -171,6 +183,17 @@ Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Con
   environment.rotation_rad += glm::radians(choice.rotation_deg);
   environment.intensity *= choice.intensity;
   return environment;
+}
+
+Environment environmentAt(const Environment& base, const LightChoice& choice, float time_s) {
+  if (choice.lights.empty()) return base;
+  Environment painted = paintLights(base, choice.lights.at(time_s));
+  painted.name = base.empty() ? choice.lights.text() : base.name + " + " + choice.lights.text();
+  return painted;
+}
+
+Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console, float time_s) {
+  return environmentAt(chooseBaseEnvironment(scene, choice, console), choice, time_s);
 }
 
 PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Console& console) {

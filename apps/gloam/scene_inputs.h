@@ -4,6 +4,7 @@
 // Options of every verb that looks at a scene: which one, under which light, from where, when.
 #pragma once
 
+#include <gloam/lights.h>
 #include <gloam/renderer.h>
 
 #include <optional>
@@ -25,6 +26,8 @@ void addSceneOptions(CLI::App& app, SceneChoice& choice);
 struct LightChoice {
   std::string environment;  ///< file, "sky:NAME", "none"; empty: the scene's own
   float rotation_deg = 0.0f, intensity = 1.0f;
+  std::vector<std::string> light_texts;
+  AnimatedLights lights;  ///< of these texts; added to the environment
 };
 void addLightOptions(CLI::App& app, LightChoice& choice);
 
@@ -43,8 +46,14 @@ void addDeviceOption(CLI::App& app, std::string& device);
 /// Reads the scene, says what the reader mended. Throws Error, also where there is nothing to draw.
 Scene loadSceneToDraw(const SceneChoice& choice, Console& console);
 
-/// The light that was asked for; else the scene's own; else, where the scene has no lamp either, a mild sky, and says so.
-Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console);
+/// The light that was asked for by --env; else the scene's own; else, where there is neither lamp nor --light, a mild sky, and
+/// says so.
+Environment chooseBaseEnvironment(const Scene& scene, const LightChoice& choice, Console& console);
+/// The base with the lights of --light as they are at that time; the base itself where there are none.
+Environment environmentAt(const Environment& base, const LightChoice& choice, float time_s);
+/// Both.
+Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console,
+                              float time_s = 0.0f);
 
 /// Says so where the scene brings a light along that writeGlb() leaves out: all but skies by name.
 void remarkLostLight(const Scene& scene, Console& console);

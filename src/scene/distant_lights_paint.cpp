@@ -30,14 +30,22 @@ int widthFor(const Environment& base, std::span<const DistantLight> lights) {
 
 class Painter {
  public:
-  Painter(Environment& map) : map_(map), c_(std::cos(map.rotation_rad)), s_(std::sin(map.rotation_rad)) {}
+  explicit Painter(Environment& map)
+      : map_(map), c_(std::cos(map.rotation_rad)), s_(std::sin(map.rotation_rad)) {
+    for (int column = 0; column < map.width; ++column) {
+      const float phi = 2.0f * kPi * ((float(column) + 0.5f) / float(map.width) - 0.5f);
+      around_.emplace_back(std::cos(phi), std::sin(phi));
+    }
+  }
 
   glm::vec3& texel(int column, int row) {
     return map_.radiance[std::size_t(row) * std::size_t(map_.width) + std::size_t(column)];
   }
   glm::vec3 worldDirection(int column, int row) const {
-    const glm::vec3 d = texelDirection(map_, column, row);
-    return {c_ * d.x + s_ * d.z, d.y, c_ * d.z - s_ * d.x};
+    const glm::vec2& around = around_[std::size_t(column)];
+    const float elevation = kPi * (0.5f - (float(row) + 0.5f) / float(map_.height));
+    const float x = std::cos(elevation) * around.x, z = std::cos(elevation) * around.y;
+    return {c_ * x + s_ * z, std::sin(elevation), c_ * z - s_ * x};
   }
 
   void addBase(const Environment& base) {
@@ -61,30 +69,36 @@ class Painter {
 
   // Shares of texels at the rim are counted on a grid, then all are scaled so that their solid angles sum to the cone's.
   void addDisc(const DistantLight& disc) {
+    struct Row {
+      std::vector<std::pair<int, float>> shares;  // column, part of the texel
+      double solid_angle = 0.0;
+    };
     const float diagonal = 1.5f * kPi / float(map_.height);
-    std::vector<float> shares(map_.radiance.size(), 0.0f);
-    std::vector<double> sums(std::size_t(map_.height), 0.0);
-    tbb::parallel_for(0, map_.height, [&](int row) {
-      const float elevation = kPi * (0.5f - (float(row) + 0.5f) / float(map_.height));
-      const float axis_elevation = std::asin(std::clamp(disc.direction.y, -1.0f, 1.0f));
+    const float axis_elevation = std::asin(std::clamp(disc.direction.y, -1.0f, 1.0f));
+    std::vector<Row> rows(std::size_t(map_.height));
+    tbb::parallel_for(0, map_.height, [&](int y) {
+      const float elevation = kPi * (0.5f - (float(y) + 0.5f) / float(map_.height));
       if (std::abs(elevation - axis_elevation) > disc.radius_rad + diagonal) return;
+      Row& row = rows[std::size_t(y)];
       double covered = 0.0;
       for (int column = 0; column < map_.width; ++column) {
-        const float chord = glm::length(worldDirection(column, row) - disc.direction);
-        const float angle = 2.0f * std::asin(std::min(1.0f, 0.5f * chord));
+        const glm::vec3 off = worldDirection(column, y) - disc.direction;
+        const float angle = 2.0f * std::asin(std::min(1.0f, 0.5f * glm::length(off)));
         if (angle > disc.radius_rad + diagonal) continue;
-        const float share = angle < disc.radius_rad - diagonal ? 1.0f : rimShare(column, row, disc);
-        shares[std::size_t(row) * std::size_t(map_.width) + std::size_t(column)] = share;
+        const float share = angle < disc.radius_rad - diagonal ? 1.0f : rimShare(column, y, disc);
+        row.shares.emplace_back(column, share);
         covered += double(share);
       }
-      sums[std::size_t(row)] = covered * double(sh::equirectangularSolidAngle(row, map_.width, map_.height));
+      row.solid_angle = covered * double(sh::equirectangularSolidAngle(y, map_.width, map_.height));
     });
     double sum = 0.0;
-    for (const double covered : sums) sum += covered;
+    for (const Row& row : rows) sum += row.solid_angle;
     const double half = std::sin(0.5 * double(disc.radius_rad));
     if (!(sum > 0.0)) return;
     const glm::vec3 radiance = disc.radiance * float(4.0 * double(kPi) * half * half / sum);
-    for (std::size_t i = 0; i < shares.size(); ++i) map_.radiance[i] += shares[i] * radiance;
+    for (int y = 0; y < map_.height; ++y) {
+      for (const auto& [column, share] : rows[std::size_t(y)].shares) texel(column, y) += share * radiance;
+    }
   }
 
  private:
@@ -111,6 +125,7 @@ class Painter {
 
   Environment& map_;
   float c_, s_;
+  std::vector<glm::vec2> around_;  // cosine and sine of each column's longitude
 };
 
 }  // namespace

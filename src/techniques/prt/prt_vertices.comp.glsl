@@ -1,7 +1,9 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// A vertex's irradiance: its transfer vectors times its object's light. One work group a block of vertices.
+// A vertex's irradiance: its transfer vectors times its object's light. One row of invocations a block of vertices, four
+// neighbours each: what is loaded together is one wide load, and light is loaded once for four (Mesa's software driver takes
+// a load lane by lane, and as long for four words as for one).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,48 +15,82 @@ layout(constant_id = 1) const bool has_indirect = true;
 layout(constant_id = 2) const bool half_float = false;
 layout(constant_id = 3) const bool damped = false;  // the same lights windowed follow, where ringing is to be damped
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kBlockVertices / 4, local_size_y = kBlocksTogether) in;
 layout(scalar, set = 0, binding = 0) readonly buffer Blocks { VertexBlock at[]; } blocks;
-layout(scalar, set = 0, binding = 1) readonly buffer TransferDirect { uint at[]; } transfer_direct;
-layout(scalar, set = 0, binding = 2) readonly buffer TransferIndirect { uint at[]; } transfer_indirect;
+layout(scalar, set = 0, binding = 1) readonly buffer TransferDirect { uvec4 at[]; } transfer_direct;
+layout(scalar, set = 0, binding = 2) readonly buffer TransferIndirect { uvec4 at[]; } transfer_indirect;
 layout(scalar, set = 0, binding = 3) readonly buffer Lights { vec3 at[]; } lights;
 layout(scalar, set = 0, binding = 4) writeonly buffer VertexLights { VertexLight at[]; } vertex_light;
 layout(scalar, push_constant) uniform Push { VerticesParams params; } push;
 
-/// Value i of a lane's vertex. Halves stand two a word.
-float direct(uint block, uint i, uint lane) {
-  if (!half_float) return uintBitsToFloat(transfer_direct.at[(block * uint(coefficients) + i) * kBlockVertices + lane]);
-  uint words = uint(coefficients + 1) / 2u;
-  return unpackHalf2x16(transfer_direct.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
+const uint kTogether = 4u;
+const uint kRow = kBlockVertices / kTogether;
+
+/// Irradiance of four vertices, a colour each row.
+struct Four {
+  vec4 r, g, b;
+};
+Four none() { return Four(vec4(0.0), vec4(0.0), vec4(0.0)); }
+void add(inout Four sum, vec3 light, vec4 r, vec4 g, vec4 b) {
+  sum.r += light.r * r;
+  sum.g += light.g * g;
+  sum.b += light.b * b;
 }
-float indirect(uint block, uint i, uint lane) {
-  if (!half_float) return uintBitsToFloat(transfer_indirect.at[(block * 3u * uint(coefficients) + i) * kBlockVertices + lane]);
-  uint words = uint(3 * coefficients + 1) / 2u;
-  return unpackHalf2x16(transfer_indirect.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
-}
+vec3 of(Four sum, int k) { return vec3(sum.r[k], sum.g[k], sum.b[k]); }
+
+/// Word w of four vertices; halves stand two a word.
+vec4 lowHalves(uvec4 w) { return vec4(unpackHalf2x16(w.x).x, unpackHalf2x16(w.y).x, unpackHalf2x16(w.z).x, unpackHalf2x16(w.w).x); }
+vec4 highHalves(uvec4 w) { return lowHalves(w >> 16u); }
 
 void main() {
-  uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint number = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.y + gl_LocalInvocationID.y;
   if (number >= push.params.block_count) return;
   VertexBlock block = blocks.at[number];
-  uint lane = gl_LocalInvocationID.x;
-  if (lane >= block.count) return;
-  VertexLight sum = VertexLight(vec3(0.0), vec3(0.0)), soft = sum;
-  for (uint i = 0u; i < uint(coefficients); ++i) {
-    vec3 light = lights.at[block.light + i], soft_light = vec3(0.0);
-    float m = direct(block.transfer, i, lane);
-    sum.direct += light * m;
-    if (damped) {
-      soft_light = lights.at[push.params.first_damped + block.light + i];
-      soft.direct += soft_light * m;
+  uint row = gl_LocalInvocationID.x;
+  const uint n = uint(coefficients);
+  uint words = half_float ? (n + 1u) / 2u : n, colored_words = half_float ? (3u * n + 1u) / 2u : 3u * n;
+  uint at = block.transfer * words * kRow + row, colored_at = block.transfer * colored_words * kRow + row;
+
+  Four direct = none(), indirect = none(), soft_direct = none(), soft_indirect = none();
+  const uint step = half_float ? 2u : 1u;
+  for (uint i = 0u; i < n; i += step) {
+    vec3 light = lights.at[block.light + i], next = vec3(0.0), soft = vec3(0.0), soft_next = vec3(0.0);
+    if (damped) soft = lights.at[push.params.first_damped + block.light + i];
+    bool pair = half_float && i + 1u < n;  // the last of an odd number stands alone
+    if (pair) next = lights.at[block.light + i + 1u];
+    if (pair && damped) soft_next = lights.at[push.params.first_damped + block.light + i + 1u];
+    uvec4 bits = transfer_direct.at[at + i / step * kRow];
+    vec4 m = half_float ? lowHalves(bits) : uintBitsToFloat(bits);
+    add(direct, light, m, m, m);
+    if (damped) add(soft_direct, soft, m, m, m);
+    if (half_float) {
+      m = highHalves(bits);
+      add(direct, next, m, m, m);
+      if (damped) add(soft_direct, soft_next, m, m, m);
     }
     if (has_indirect) {
-      vec3 bounced = vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
-                          indirect(block.transfer, 3u * i + 2u, lane));
-      sum.indirect += light * bounced;
-      if (damped) soft.indirect += soft_light * bounced;
+      uint w = colored_at + 3u * i / step * kRow;
+      uvec4 first = transfer_indirect.at[w], second = transfer_indirect.at[w + kRow], third = uvec4(0u);
+      // Of halves, a last coefficient that stands alone has two words.
+      if (!half_float || pair) third = transfer_indirect.at[w + 2u * kRow];
+      if (half_float) {
+        vec4 r = lowHalves(first), g = highHalves(first), b = lowHalves(second);
+        add(indirect, light, r, g, b);
+        if (damped) add(soft_indirect, soft, r, g, b);
+        r = highHalves(second), g = lowHalves(third), b = highHalves(third);
+        add(indirect, next, r, g, b);
+        if (damped) add(soft_indirect, soft_next, r, g, b);
+      } else {
+        vec4 r = uintBitsToFloat(first), g = uintBitsToFloat(second), b = uintBitsToFloat(third);
+        add(indirect, light, r, g, b);
+        if (damped) add(soft_indirect, soft, r, g, b);
+      }
     }
   }
-  if (damped) sum = VertexLight(withoutRinging(sum.direct, soft.direct), withoutRinging(sum.indirect, soft.indirect));
-  vertex_light.at[block.output_ + lane] = sum;
+  for (int k = 0; k < int(kTogether); ++k) {
+    uint vertex = row * kTogether + uint(k);
+    VertexLight sum = VertexLight(of(direct, k), of(indirect, k));
+    if (damped) sum = VertexLight(withoutRinging(sum.direct, of(soft_direct, k)), withoutRinging(sum.indirect, of(soft_indirect, k)));
+    if (vertex < block.count) vertex_light.at[block.output_ + vertex] = sum;
+  }
 }
