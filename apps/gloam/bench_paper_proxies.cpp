@@ -138,7 +138,7 @@ void addOperators(PaperTable& table, const sh::ShRgb& scene_light) {
   table.plot = {
       .title = "Indirect light of one proxy: operators against the exact one",
       .across = "sine of the half-angle",
-      .up = "Frobenius norm of the difference, % of the exact operator's",
+      .up = "Frobenius distance, % of the exact one's norm",
       .curves = {{"averaged over the disc (PX-4, fitted)", {}}, {"sampled at one point (PX-3)", {}}},
       .notes = {"gloam bench proxies --paper -o FILE.svg"}};
   for (const proxies::OperatorDistance& d : proxies::operatorDistances(kCurvePoints)) {
