@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 STAGE = ("scene", "environment", "bounces", "sh_order", "size", "spp")
+# "bake": options of `gloam bake`, by which the scene is baked beforehand; without them by the defaults of compare.
 MEASURES = ("rmse", "relative_squared_error", "flip", "mean_signed_error")
 LAYERS = ("direct", "indirect")  # either may have bounds of its own: "most": {"flip": …, "direct": {"flip": …}}
 FIELDS = {*STAGE, "technique", "settings", "most", "date", "reason"}
@@ -32,7 +33,7 @@ def bounds(budget):
 def read_budgets(path):
     budgets = json.loads(path.read_text(encoding="utf-8"))["budgets"]
     for budget in budgets:
-        missing, unknown = FIELDS - set(budget), set(budget) - FIELDS
+        missing, unknown = FIELDS - set(budget), set(budget) - FIELDS - {"bake"}
         if missing or unknown or not budget["most"] or {name for _, name, _ in bounds(budget)} - set(MEASURES):
             raise SystemExit(f"{path}: {budget.get('technique')} on {budget.get('scene')}: missing {sorted(missing)}, "
                              f"unknown {sorted(unknown)}, or 'most' holds other measures than {', '.join(MEASURES)}, "
@@ -48,22 +49,31 @@ def stages(budgets):
     """Budgets that share a reference are compared in one run."""
     groups = {}
     for budget in budgets:
-        groups.setdefault(tuple(budget[name] for name in STAGE), []).append(budget)
+        stage = tuple(budget[name] for name in STAGE) + (tuple(budget.get("bake", ())),)
+        groups.setdefault(stage, []).append(budget)
     return groups.items()
 
 
-def compare(gloam, stage, budgets, folder):
-    choice = dict(zip(STAGE, stage))
-    command = [gloam, "compare", choice["scene"], "--env", choice["environment"], "--size", choice["size"],
-               "--bounces", str(choice["bounces"]), "--spp", str(choice["spp"]), "--sh-order", str(choice["sh_order"]),
-               "--techniques", ",".join(dict.fromkeys(map(contender, budgets))), "--frames", "1", "--quiet", "--json",
-               "-o", str(folder)]
+def run(command, folder):
     print("$", " ".join(command), flush=True)
     process = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False,
                              env=dict(os.environ, XDG_CACHE_HOME=str(folder.parent / "cache")))
     if process.returncode != 0:
         raise SystemExit(f"exit {process.returncode}\n{process.stderr}")
-    return json.loads(process.stdout)["techniques"]
+    return process.stdout
+
+
+def compare(gloam, stage, budgets, folder):
+    choice, bake = dict(zip(STAGE, stage)), stage[-1]
+    if bake:
+        baked = str(folder) + ".glb"
+        run([gloam, "bake", choice["scene"], "--bounces", str(choice["bounces"]), *bake, "--quiet", "-o", baked], folder)
+        choice["scene"] = baked
+    command = [gloam, "compare", choice["scene"], "--env", choice["environment"], "--size", choice["size"],
+               "--bounces", str(choice["bounces"]), "--spp", str(choice["spp"]), "--sh-order", str(choice["sh_order"]),
+               "--techniques", ",".join(dict.fromkeys(map(contender, budgets))), "--frames", "1", "--quiet", "--json",
+               "-o", str(folder)]
+    return json.loads(run(command, folder))["techniques"]
 
 
 def violations(budget, result):

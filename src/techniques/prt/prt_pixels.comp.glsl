@@ -1,8 +1,9 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Interpolates the irradiance of the three vertices around each pixel, or of the four texels of a lightmap; what carries no transfer gets the
-// unshadowed irradiance at its shading normal. Ringing of the light may leave negative sums: they count as 0.
+// Interpolates the irradiance of the three vertices around each pixel, or of the four texels of its lightmap; what
+// carries no transfer gets the unshadowed irradiance at its shading normal. Ringing of the light may leave negative
+// sums: they count as 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
