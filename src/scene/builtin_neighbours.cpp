@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Objects that move past one another: a wheel that turns above what passes under it, and a ring of gold that throws caustics.
+// Objects that move past one another: a vane that turns above what passes under it, and a ring of gold that throws caustics.
 #include <cmath>
 
 #include "scene/builtin_shapes.h"
@@ -33,15 +33,10 @@ void addSway(SceneBuilder& builder, int node, const glm::vec3& middle, const glm
   }
 }
 
-/// A wheel about the Y axis: rim, hub, three spokes.
-Mesh wheel(const Detail& detail) {
-  Mesh mesh = shapes::torus(0.62f, 0.085f, detail(80), detail(16));
-  shapes::append(mesh, shapes::icosphere(0.15f, detail(8)));
-  for (int k = 0; k < 3; ++k) {
-    const Mesh spoke = shapes::roundedBox({0.27f, 0.055f, 0.085f}, 0.03f, detail.cell(0.05f), 2);
-    const glm::mat4 turn = glm::mat4_cast(glm::angleAxis(2 * kPi * float(k) / 3, glm::vec3(0, 1, 0)));
-    shapes::append(mesh, shapes::transformed(shapes::moved(spoke, {0.36f, 0, 0}), turn));
-  }
+/// Two broad blades on a hub, about the Y axis.
+Mesh vane(const Detail& detail) {
+  Mesh mesh = shapes::roundedBox({0.74f, 0.05f, 0.19f}, 0.045f, detail.cell(0.035f), 3);
+  shapes::append(mesh, shapes::icosphere(0.14f, detail(10)));
   return mesh;
 }
 
@@ -58,19 +53,22 @@ Mesh band(const Detail& detail, float inner, float thickness, float height) {
 
 }  // namespace
 
-Scene makePassing(const Detail& detail, NamedValues&) {
+Scene makePassing(const Detail& detail, NamedValues& values) {
+  const bool has_ball = values.take("ball", 1, 0, 1) >= 0.5;
   SceneBuilder builder("passing");
   builder.place("ground", shapes::slab(2.3f, 1.7f, 0.2f, 0.05f, detail.cell(0.035f)),
                 builder.diffuse("ground", {0.42f, 0.4f, 0.37f}));
-  const int turning = builder.place("wheel", wheel(detail), builder.diffuse("red lead", {0.7f, 0.17f, 0.09f}),
-                                    {0.0f, 1.12f, 0.0f});
-  addTurn(builder, turning, glm::angleAxis(0.22f, glm::vec3(0, 0, 1)), {0, 1, 0}, 1.0f);
-  const glm::vec3 middle(0.0f, 0.42f, 0.12f);
-  const int ball = builder.place("ball", shapes::icosphere(0.42f, detail(24)),
-                                 builder.diffuse("chalk", {0.78f, 0.77f, 0.74f}), middle);
-  addSway(builder, ball, middle, {1.35f, 0, 0});
-  builder.camera({1.2f, 2.7f, 4.6f}, {0, 0.45f, 0.05f}, 33);
-  builder.sky("mild?elevation=66&azimuth=20");
+  const int turning = builder.place("vane", vane(detail), builder.diffuse("red lead", {0.7f, 0.17f, 0.09f}),
+                                    {0.0f, 1.08f, 0.0f});
+  addTurn(builder, turning, glm::angleAxis(0.12f, glm::vec3(0, 0, 1)), {0, 1, 0}, 1.0f);
+  if (has_ball) {
+    const glm::vec3 middle(0.0f, 0.42f, 0.12f);
+    const int ball = builder.place("ball", shapes::icosphere(0.42f, detail(24)),
+                                   builder.diffuse("chalk", {0.78f, 0.77f, 0.74f}), middle);
+    addSway(builder, ball, middle, {1.35f, 0, 0});
+  }
+  builder.camera({1.6f, 2.5f, 3.9f}, {0.1f, 0.42f, 0}, 38);
+  builder.sky("preetham?elevation=48&azimuth=-80");
   return builder.finish();
 }
 
@@ -90,7 +88,7 @@ Scene makeRing(const Detail& detail, NamedValues& values) {
                                  builder.metal("gold", {0.95f, 0.68f, 0.26f}, 0.12f), {0, 0.03f, 0});
   addTurn(builder, ring, glm::angleAxis(0.0f, glm::vec3(0, 1, 0)), {0, 1, 0}, 1.0f);
   builder.camera({0.0f, 2.9f, 3.3f}, {0, 0.05f, 0.05f}, 32);
-  builder.sky("mild?elevation=32&azimuth=-50");
+  builder.sky("preetham?elevation=32&azimuth=-50");
   return builder.finish();
 }
 

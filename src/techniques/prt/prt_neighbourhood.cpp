@@ -68,8 +68,8 @@ std::uint32_t pointsOf(const frame::GpuMesh& mesh) {
 
 NeighbourhoodPasses::NeighbourhoodPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                          const NeighbourhoodBuffers& buffers, const TransferBuffers& transfer,
-                                         const sh::ShRgb& light)
-    : graph_(graph), inputs_(inputs), buffers_(buffers), light_(buffers.fieldOrder()) {
+                                         const sh::ShRgb& light, bool damped)
+    : graph_(graph), inputs_(inputs), buffers_(buffers), light_(buffers.fieldOrder()), damped_(damped) {
   // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
   float greatest = 0.0f;
   for (const glm::vec3& c : light.coefficients())
@@ -196,6 +196,7 @@ void NeighbourhoodPasses::lightVertices(const TransferBuffers& transfer, gpu::Bu
         .specialize("half_float", transfer.options().half_float)
         .specialize("field_order", buffers_.fieldOrder())
         .specialize("has_thrown", buffers_.hasThrown())
+        .specialize("damped", damped_)
         .read("radiance", radiance_)
         .read("blocks", chunk.blocks)
         .read("transfer_direct", chunk.direct)
@@ -244,6 +245,7 @@ void NeighbourhoodPasses::lightPixels(frame::Lighting& lighting, bool indirect) 
       .specialize("has_indirect_in", bool(indirect_in))
       .specialize("has_gloss_in", bool(gloss_in))
       .specialize("has_gloss_indirect_in", bool(gloss_indirect_in))
+      .specialize("damped", damped_)
       .read("radiance", radiance_)
       .read("frame_view", inputs_.view)
       .read("ids", inputs_.gbuffer.ids)

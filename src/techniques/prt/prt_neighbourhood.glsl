@@ -41,4 +41,8 @@ vec3 leftInShadow(vec3 open, vec3 shadowed, float share) {
   return mix(vec3(1.0), left, share * vec3(greaterThan(open, vec3(1e-9))));
 }
 
+/// Hann's window over the radiance, by band: what is gathered through it rings less and is mixed in where a colour falls
+/// below 0, as in prt_gloss_pixels.comp.glsl.
+float softened(uint band, int order) { return 0.5 + 0.5 * cos(3.14159265 * float(band) / float(order)); }
+
 #endif

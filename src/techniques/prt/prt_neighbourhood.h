@@ -53,10 +53,11 @@ class NeighbourhoodBuffers {
 class NeighbourhoodPasses {
  public:
   /// Adds "prt.neighbourhood_points" and "prt.neighbourhood_turn": the radiance in every grid, for what reads it. `light` is
-  /// the world's, of buffers.lightOrder() bands.
+  /// the world's, of buffers.lightOrder() bands; `damped`: where ringing makes a sum negative, one of a windowed
+  /// radiance is mixed in.
   NeighbourhoodPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                       const NeighbourhoodBuffers& buffers, const TransferBuffers& transfer,
-                      const sh::ShRgb& light);
+                      const sh::ShRgb& light, bool damped);
 
   /// Adds "prt.neighbourhood_vertices", once a chunk, where baked vertices stand in others' grids: changes their light.
   void lightVertices(const TransferBuffers& transfer, gpu::BufferRef vertex_light);
@@ -74,6 +75,7 @@ class NeighbourhoodPasses {
   const NeighbourhoodBuffers& buffers_;
   sh::ShRgb light_;  ///< exposed, of fieldOrder() bands
   float exposure_ = 1.0f;
+  bool damped_ = false;
   gpu::BufferRef fields_, radiance_;
   std::vector<std::uint32_t> first_words_;  ///< of each carrier's fields
   std::vector<float> rotations_;

@@ -173,8 +173,7 @@ TEST(PrtNeighbourhood, SameBitsForAnyNumberOfThreadsAndAfterInterruptions) {
       EXPECT_TRUE(report.resumed);
       EXPECT_GT(interruptions, 2);
       break;
-    } catch (const Interrupted&) {
-      ASSERT_TRUE(std::filesystem::exists(options.checkpoint));
+    } catch (const Interrupted&) {  // in time while the tracer is still built, there is nothing to keep
     }
   }
   EXPECT_FALSE(std::filesystem::exists(options.checkpoint));

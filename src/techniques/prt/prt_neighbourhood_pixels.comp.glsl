@@ -14,6 +14,7 @@
 #include "math/brdf.glsl"
 #define GLOAM_RADIANCE_BINDING 0
 #include "techniques/prt/prt_neighbourhood.glsl"
+#include "techniques/prt/prt_ringing.glsl"
 #include "techniques/prt/prt_shared.h"
 
 layout(constant_id = 0) const int field_order = 5;
@@ -21,6 +22,7 @@ layout(constant_id = 1) const bool has_thrown = true;
 layout(constant_id = 2) const bool has_indirect_in = true;  // else there was none so far
 layout(constant_id = 3) const bool has_gloss_in = true;
 layout(constant_id = 4) const bool has_gloss_indirect_in = true;
+layout(constant_id = 5) const bool damped = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 1) uniform ViewBlock { FrameView view; } frame_view;
@@ -46,41 +48,57 @@ layout(scalar, push_constant) uniform Push { NeighbourhoodPixels params; } push;
 const uint kWords = has_thrown ? 3u : 2u;
 const uint kRows = uint(field_order * field_order);
 
-vec3 open, shadowed, thrown;
+vec3 open, shadowed, soft, thrown;
 
-void addCoefficient(uint at, float weight) {
+void addCoefficient(uint at, float weight, float soft_weight) {
   vec2 a = unpackHalf2x16(radiance.at[at]), b = unpackHalf2x16(radiance.at[at + 1u]);
   shadowed += weight * vec3(a, b.x);
+  if (damped) soft += soft_weight * vec3(a, b.x);
   if (has_thrown) thrown += weight * vec3(b.y, unpackHalf2x16(radiance.at[at + 2u]));
 }
 
-#define ADD(i) addCoefficient(at + uint(i) * kWords, weight * y[i]);
+#define ADD(i) addCoefficient(at + uint(i) * kWords, weight * y[i], weight * z[i]);
 #define OPEN(i) open += y[i] * light.at[i];
 #define BANDS_3(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8)
 #define BANDS_4(DO) BANDS_3(DO) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15)
 #define BANDS_5(DO) BANDS_4(DO) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) DO(23) DO(24)
 #define BANDS_6(DO) BANDS_5(DO) DO(25) DO(26) DO(27) DO(28) DO(29) DO(30) DO(31) DO(32) DO(33) DO(34) DO(35)
-#define GATHER(order, count)                                 \
-  {                                                          \
-    float y[count];                                          \
-    shEvaluate##order(axis, y);                              \
-    GLOAM_SH_SCALE_BANDS_##order(y, factors)                 \
-    BANDS_##order(OPEN)                                      \
-    for (uint corner = 0u; corner < 8u; ++corner) {          \
-      uint at = cornerWord(place, corner);                   \
-      float weight = cornerWeight(place, corner);            \
-      BANDS_##order(ADD)                                     \
-    }                                                        \
-    return;                                                  \
+#define COSINE_3(DO) BANDS_3(DO)
+#define COSINE_5(DO) BANDS_3(DO) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) DO(23) DO(24)
+#define GATHER(order, count, coefficients)          \
+  {                                                 \
+    float y[count], z[count];                       \
+    shEvaluate##order(axis, y);                     \
+    GLOAM_SH_SCALE_BANDS_##order(y, factors)        \
+    z = y;                                          \
+    GLOAM_SH_SCALE_BANDS_##order(z, soft_factors)   \
+    coefficients(OPEN)                              \
+    for (uint corner = 0u; corner < 8u; ++corner) { \
+      uint at = cornerWord(place, corner);          \
+      float weight = cornerWeight(place, corner);   \
+      coefficients(ADD)                             \
+    }                                               \
+    if (damped) shadowed = withoutRinging(shadowed, soft); \
+    return;                                         \
   }
 
+float soft_factors[6];
+
 /// The lobe of these band factors about an axis, over light as it is and as it is here.
-void gather(GridPlace place, vec3 axis, float factors[6]) {
-  open = shadowed = thrown = vec3(0.0);
-  if (field_order <= 3) GATHER(3, 9)
-  if (field_order == 4) GATHER(4, 16)
-  if (field_order == 5) GATHER(5, 25)
-  GATHER(6, 36)
+void gatherPhong(GridPlace place, vec3 axis, float factors[6]) {
+  open = shadowed = soft = thrown = vec3(0.0);
+  if (field_order <= 3) GATHER(3, 9, BANDS_3)
+  if (field_order == 4) GATHER(4, 16, BANDS_4)
+  if (field_order == 5) GATHER(5, 25, BANDS_5)
+  GATHER(6, 36, BANDS_6)
+}
+
+/// The same of the clamped cosine, which has nothing in bands 3 and 5.
+void gatherCosine(GridPlace place, vec3 axis) {
+  const float factors[6] = kShClampedCosineFactors;
+  open = shadowed = soft = thrown = vec3(0.0);
+  if (field_order <= 4) GATHER(3, 9, COSINE_3)
+  GATHER(5, 25, COSINE_5)
 }
 
 void main() {
@@ -100,19 +118,20 @@ void main() {
     float exponent = phongExponent(texelFetch(diffuse, pixel, 0).a);
     bool shines = texelFetch(specular, pixel, 0).rgb != vec3(0.0);
     if (!has_gloss_in && shines) lobe = environmentGloss(gloss, mirror, exponent);
-    float phong[6], cosine[6] = kShClampedCosineFactors;
+    float phong[6];
+    for (uint l = 0u; l < 6u; ++l) soft_factors[l] = int(l) < field_order ? softened(l, field_order) : 0.0;
     phongBandFactors(clamp(exponent, 1.0, kSharpestLobe[field_order]), phong);
     for (uint g = 0u; g < push.params.grid_count; ++g) {
       if (grids.at[g].carrier == owner.x) continue;
       GridPlace place = placeInGrid(grids.at[g], position, kRows * kWords);
       if (place.share == 0.0) continue;
       if (owner.y == 0u) {
-        gather(place, normal, cosine);
+        gatherCosine(place, normal);
         irradiance *= leftInShadow(open, shadowed, place.share);
         bounced += place.share * push.params.exposure * max(thrown, vec3(0.0));
       }
       if (shines) {
-        gather(place, mirror, phong);
+        gatherPhong(place, mirror, phong);
         lobe *= leftInShadow(open, shadowed, place.share);
         lobe_bounced += place.share * push.params.exposure * max(thrown, vec3(0.0));
       }

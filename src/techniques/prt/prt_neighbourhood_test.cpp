@@ -101,7 +101,9 @@ int expectTwin(const Scene& scene, const Picture& picture, double tolerance) {
         squares += std::pow(double(seen[0][c]) - double(direct[c]), 2.0) +
                    std::pow(double(seen[1][c]) - double(indirect[c]), 2.0);
         whole += double(direct[c]) * double(direct[c]);
-        if (share == 0.0f) EXPECT_NEAR(seen[0][c], direct[c], 0.01f * direct[c]);
+        if (share == 0.0f) {
+          EXPECT_NEAR(seen[0][c], direct[c], 0.01f * direct[c]);
+        }
       }
     }
   }

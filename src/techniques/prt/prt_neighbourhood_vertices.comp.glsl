@@ -8,6 +8,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #define GLOAM_RADIANCE_BINDING 0
 #include "techniques/prt/prt_neighbourhood.glsl"
+#include "techniques/prt/prt_ringing.glsl"
 #include "techniques/prt/prt_shared.h"
 
 layout(constant_id = 0) const int coefficients = 25;  // of transfer
@@ -15,6 +16,7 @@ layout(constant_id = 1) const bool has_indirect = true;
 layout(constant_id = 2) const bool half_float = false;
 layout(constant_id = 3) const int field_order = 5;
 layout(constant_id = 4) const bool has_thrown = true;
+layout(constant_id = 5) const bool damped = false;
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Blocks { VertexBlock at[]; } blocks;
@@ -58,6 +60,7 @@ void main() {
       GridPlace place = placeInGrid(grids.at[g], position, kRows * kWords);
       if (place.share == 0.0) continue;
       vec3 open = vec3(0.0), shadowed = open, open_bounced = open, shadowed_bounced = open, thrown = open;
+      vec3 soft = open, soft_bounced = open;
       for (uint i = 0u; i < min(kRows, uint(coefficients)); ++i) {
         vec3 first = vec3(0.0), further = vec3(0.0);
         for (uint corner = 0u; corner < 8u; ++corner) {
@@ -71,14 +74,21 @@ void main() {
         float m = direct(block.transfer, i, lane);
         open += m * light;
         shadowed += m * first;
+        float soft_share = damped ? softened(uint(sqrt(float(i) + 0.5)), field_order) : 0.0;
+        soft += soft_share * m * first;
         thrown += m * further;
         if (has_indirect) {
           vec3 bounced = vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
                               indirect(block.transfer, 3u * i + 2u, lane));
           open_bounced += bounced * light;
           shadowed_bounced += bounced * first;
+          soft_bounced += soft_share * bounced * first;
           thrown += bounced * further;
         }
+      }
+      if (damped) {
+        shadowed = withoutRinging(shadowed, soft);
+        shadowed_bounced = withoutRinging(shadowed_bounced, soft_bounced);
       }
       result.direct *= leftInShadow(open, shadowed, place.share);
       if (has_indirect) result.indirect *= leftInShadow(open_bounced, shadowed_bounced, place.share);
