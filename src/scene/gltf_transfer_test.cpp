@@ -302,7 +302,9 @@ TEST(Transfer, CompressedComesBackExpanded) {
              pca.weights[2 * v + 1] * pca.basis[(2 * k + 1) * width + d];
     };
     EXPECT_NEAR(a.direct[9 * v + 4], number(4), 1e-6f);
-    if (bounces > 0) EXPECT_NEAR(a.indirect[3 * (9 * v + 4) + 1], number(9 + 3 * 4 + 1), 1e-6f);
+    if (bounces > 0) {
+      EXPECT_NEAR(a.indirect[3 * (9 * v + 4) + 1], number(9 + 3 * 4 + 1), 1e-6f);
+    }
     gloam::writeGlb(scene, temporary());
     const Scene again = loadScene(temporary().string());
     fs::remove(temporary());

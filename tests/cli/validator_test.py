@@ -45,6 +45,8 @@ class Validator(CliTest):
         bake = ["bake", "builtin:columns?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
         self.succeed(*bake, "--bounces", "1", "-o", "di.glb")
         self.succeed(*bake, "--kind", "ds", "--half", "-o", "ds.glb")
+        self.succeed(*bake, "--bounces", "1", "--pca", "4x8", "-o", "pca.glb")
+        self.succeed(*bake, "--bounces", "1", "--pca", "300x3", "--half", "-o", "pca_half.glb")
         gallery = ["bake", "builtin:gallery?detail=0.25", "--directions", "256", "--bounce-directions", "256"]
         self.succeed(*gallery, "--texels", "16", "--half", "-o", "texels.glb")
         self.succeed(*gallery, "--tessellate", "0.2", "-o", "split.glb")
