@@ -4,6 +4,8 @@
 // Tables of a sky for sky_lanes_simd.cpp, which says how directions are chosen.
 #include "reference/environment_sampler.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -35,8 +37,9 @@ double rowSine(int r, int height) {
   return std::cos((y - 0.5) / height * kPiDouble);
 }
 
-constexpr int kMostTexels = 65535;  // each way
-constexpr int kRowBits = 12;        // of the table of where to begin among rows
+constexpr int kMostTexels = 32768;  // each way
+constexpr std::int64_t kMostOfAll = std::int64_t(1) << 27;
+constexpr int kRowBits = 12;  // of the table of where to begin among rows
 
 // The same for the cells of a row: about as many parts as cells.
 int bitsFor(int cells) {
@@ -55,12 +58,15 @@ void append(const Distribution& choice, std::vector<std::uint32_t>& starts,
 
 EnvironmentSampler::EnvironmentSampler(const Environment& environment, int order) {
   if (environment.empty()) return;
+  const auto texels = std::int64_t(environment.width) * environment.height;
+  if (std::max(environment.width, environment.height) > kMostTexels || texels > kMostOfAll)
+    throw Error("environment", fmt::format("{} x {} texels; the reference takes {} each way and {} in all",
+                                           environment.width, environment.height, kMostTexels, kMostOfAll));
   if (order > 0) {
     fillProjection(environment, order);
   } else {
     fillPixels(environment);
   }
-  for (const glm::vec4& texel : sky_.texels) sky_.importance.push_back(texel.w);
   fillChoices();
 }
 
@@ -69,7 +75,8 @@ void EnvironmentSampler::fillPixels(const Environment& environment) {
   sky_.cos_rotation = std::cos(environment.rotation_rad);
   sky_.sin_rotation = std::sin(environment.rotation_rad);
   sky_.turned = 0.5f + std::remainder(environment.rotation_rad / (2.0f * kPi), 1.0f);
-  sky_.texels.reserve(std::size_t(width + 1) * std::size_t(height + 2));
+  std::vector<glm::vec4> texels;  // with a border around
+  texels.reserve(std::size_t(width + 1) * std::size_t(height + 2));
   for (int row = 0; row < height + 2; ++row) {
     const int from_row = std::clamp(row - 1, 0, height - 1);
     for (int column = 0; column < width + 1; ++column) {
@@ -77,9 +84,10 @@ void EnvironmentSampler::fillPixels(const Environment& environment) {
       const glm::vec3 radiance =
           environment.intensity *
           environment.radiance[std::size_t(from_row) * std::size_t(width) + std::size_t(from_column)];
-      sky_.texels.emplace_back(radiance, importanceOf(radiance));
+      texels.emplace_back(radiance, importanceOf(radiance));
     }
   }
+  fillTexels(texels);
 }
 
 void EnvironmentSampler::fillProjection(const Environment& environment, int order) {
@@ -88,19 +96,30 @@ void EnvironmentSampler::fillProjection(const Environment& environment, int orde
   Environment grid;  // for its directions alone
   grid.width = width;
   grid.height = height;
+  std::vector<glm::vec4> texels;
   double mean = 0.0;
   for (int row = 0; row < height + 2; ++row) {
     for (int column = 0; column < width + 1; ++column) {
       const glm::vec3 direction =
           texelDirection(grid, (column + width - 1) % width, std::clamp(row - 1, 0, height - 1));
       const float importance = importanceOf(sh::valueAt(projection_, direction));
-      sky_.texels.emplace_back(0.0f, 0.0f, 0.0f, importance);
+      texels.emplace_back(0.0f, 0.0f, 0.0f, importance);
       mean += double(importance) * double(std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y)));
     }
   }
   mean *= 0.5 * double(kPi) / (double(width + 1) * double(height + 2));
   if (mean > 0.0)
-    for (glm::vec4& texel : sky_.texels) texel.w += kEvenShare * float(mean);
+    for (glm::vec4& texel : texels) texel.w += kEvenShare * float(mean);
+  fillTexels(texels);
+}
+
+void EnvironmentSampler::fillTexels(const std::vector<glm::vec4>& texels) {
+  const std::size_t width = std::size_t(sky_.width + 1), cells = width * std::size_t(sky_.height + 1);
+  sky_.texels.reserve(2 * cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    sky_.texels.push_back(texels[i]);
+    sky_.texels.push_back(texels[i + width]);
+  }
 }
 
 void EnvironmentSampler::fillChoices() {
@@ -108,8 +127,6 @@ void EnvironmentSampler::fillChoices() {
   const float half_angle = std::sin(0.25f * kPi / float(height));
   sky_.polar_height = 2.0f * half_angle * half_angle;
   const int cell_bits = bitsFor(width), row_bits = kRowBits;
-  if (width > kMostTexels || height >= kMostTexels)
-    throw Error("environment", "larger than 65535 texels each way");
   sky_.cell_shift = 32 - cell_bits;
   sky_.row_shift = 32 - row_bits;
   std::vector<float> cells(static_cast<std::size_t>(width)), rows;
@@ -118,9 +135,8 @@ void EnvironmentSampler::fillChoices() {
   for (int r = 0; r <= height; ++r) {
     double sum = 0.0;
     for (int c = 0; c < width; ++c) {
-      const glm::vec4 *upper = texel(c, r), *lower = texel(c, r + 1);
-      const double mean =
-          0.25 * (double(upper[0].w) + double(upper[1].w) + double(lower[0].w) + double(lower[1].w));
+      const glm::vec4* t = cell(c, r);
+      const double mean = 0.25 * (double(t[0].w) + double(t[1].w) + double(t[2].w) + double(t[3].w));
       cells[std::size_t(c)] = float(mean);
       sum += mean;
     }
@@ -165,10 +181,9 @@ EnvironmentSampler::Light EnvironmentSampler::from(const glm::vec3& d) const {
   const float elevation = angles::turns(d.y, cos_elevation);
   const float y = std::clamp((0.5f - 2.0f * elevation) * float(height) + 0.5f, 0.5f, float(height) + 0.5f);
   const int cell_x = std::clamp(int(x), 0, width - 1), cell_y = std::clamp(int(y), 0, height);
-  const glm::vec4 *upper = texel(cell_x, cell_y), *lower = upper + width + 1;
+  const glm::vec4* t = cell(cell_x, cell_y);
   const float right = x - float(cell_x), down = y - float(cell_y);
-  const glm::vec4 light =
-      glm::mix(glm::mix(upper[0], lower[0], down), glm::mix(upper[1], lower[1], down), right);
+  const glm::vec4 light = glm::mix(glm::mix(t[0], t[1], down), glm::mix(t[2], t[3], down), right);
   float pdf = light.w * sky_.density[std::size_t(cell_y)];
   if (cell_y > 0 && cell_y < height) pdf /= std::max(cos_elevation, 1e-6f);
   return {projection_.order > 0 ? sh::valueAt(projection_, d) : glm::vec3(light), pdf};

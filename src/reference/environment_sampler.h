@@ -47,8 +47,10 @@ class EnvironmentSampler {
   void fillPixels(const Environment& environment);
   void fillProjection(const Environment& environment, int order);
   void fillChoices();
-  const glm::vec4* texel(int cell_x, int cell_y) const {
-    return &sky_.texels[std::size_t(cell_y) * std::size_t(sky_.width + 1) + std::size_t(cell_x)];
+  void fillTexels(const std::vector<glm::vec4>& texels);
+  /// Its texels: upper left, lower left, upper right, lower right.
+  const glm::vec4* cell(int x, int y) const {
+    return &sky_.texels[2 * (std::size_t(y) * std::size_t(sky_.width + 1) + std::size_t(x))];
   }
 
   SkyTable sky_;

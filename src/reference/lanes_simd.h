@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Numbers, angles and vectors of sixteen lanes in registers: sampler.h's and angles.h's functions under the same names. For
-// *_simd.cpp files, which Highway compiles once an instruction set: hence the guard that is undone each time.
+// *_simd.cpp files, which Highway compiles once an instruction set: hence the guard that is undone each time. Longer than
+// other headers, since three short ones would have that guard three times.
 #if defined(GLOAM_REFERENCE_LANES_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLOAM_REFERENCE_LANES_SIMD_H
 #undef GLOAM_REFERENCE_LANES_SIMD_H

@@ -19,7 +19,7 @@ namespace reference {
 
 namespace {
 
-constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 1, "a reference picture"};
+constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 2, "a reference picture"};
 
 void checkRange(const char* name, int value, int low, int high) {
   if (value < low || value > high) {

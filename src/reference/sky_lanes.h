@@ -12,9 +12,9 @@ namespace gloam::reference {
 
 struct SkyTable {
   int width = 0, height = 0;  ///< texels
-  /// (width + 1) x (height + 2), a border around; w: importance. Cell (x, y) lies between the texels (x, y) and (x + 1, y + 1).
+  /// Cell (x, y) lies between four texels, w: importance. [cell][upper left, lower left], row by row, of width + 1 cells each: the
+  /// next entry has the two on the right. So a cell comes from memory in one piece, or two.
   std::vector<glm::vec4> texels;
-  std::vector<float> importance;  ///< of the texels, by itself
   float cos_rotation = 1.0f, sin_rotation = 0.0f;
   float turned = 0.5f;        ///< longitude 0 in the picture, as a share of its width
   float polar_height = 0.0f;  ///< of the caps above and below the outermost texel centres

@@ -132,14 +132,14 @@ HWY_INLINE Elevation atPole(VI cell_y, V y, const Elevation& elsewhere, M pole, 
 void placeKernel(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions) {
   const D d;
   const DI di;
-  const float *importance = sky.importance.data(), *below = importance + sky.width + 1;
+  const float* importance = &sky.texels[0].w;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const VI cell_x = load(places.cell_x, i), cell_y = load(places.cell_y, i);
-    const VI texel = hn::Add(hn::Mul(cell_y, hn::Set(di, sky.width + 1)), cell_x);
+    const VI texel = hn::ShiftLeft<3>(hn::Add(hn::Mul(cell_y, hn::Set(di, sky.width + 1)), cell_x));
     const V upper_left = hn::GatherIndex(d, importance, texel);
-    const V upper_right = hn::GatherIndex(d, importance + 1, texel);
-    const V lower_left = hn::GatherIndex(d, below, texel);
-    const V lower_right = hn::GatherIndex(d, below + 1, texel);
+    const V upper_right = hn::GatherIndex(d, importance + 8, texel);
+    const V lower_left = hn::GatherIndex(d, importance + 4, texel);
+    const V lower_right = hn::GatherIndex(d, importance + 12, texel);
     Elevation at;
     at.y =
         sampleLinear(hn::Add(upper_left, upper_right), hn::Add(lower_left, lower_right), load(places.y, i));
@@ -196,11 +196,11 @@ void lightKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mas
     const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
     const auto cell =
         std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) + std::size_t(places.cell_x.at[i]);
-    const float *upper = &sky.texels[cell].x, *lower = upper + 4 * (sky.width + 1);
+    const float* corner = &sky.texels[2 * cell].x;
     const auto x = hn::Set(four, places.x.at[i]), y = hn::Set(four, places.y.at[i]);
-    const auto upper_left = hn::LoadU(four, upper), upper_right = hn::LoadU(four, upper + 4);
-    const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, lower), upper_left), y, upper_left);
-    const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, lower + 4), upper_right), y, upper_right);
+    const auto upper_left = hn::LoadU(four, corner), upper_right = hn::LoadU(four, corner + 8);
+    const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 4), upper_left), y, upper_left);
+    const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 12), upper_right), y, upper_right);
     hn::Store(hn::MulAdd(hn::Sub(right, left), x, left), four, texels + 4 * i);
   }
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
@@ -240,10 +240,10 @@ void placeInCells(const SkyTable& sky, SkyPlaces& places, LaneVectors& direction
 void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask) {
   for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
-    const glm::vec4* texel = &sky.texels[std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) +
-                                         std::size_t(places.cell_x.at[i])];
+    const glm::vec4* texel = &sky.texels[2 * (std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) +
+                                              std::size_t(places.cell_x.at[i]))];
     hwy::Prefetch(texel);
-    hwy::Prefetch(texel + sky.width + 1);
+    hwy::Prefetch(texel + 3);
   }
 }
 void lightAt(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light) {

@@ -57,9 +57,9 @@ Surfaces::Surface Surfaces::makeSurface(const Instance& instance, trace::Tracer:
                 fmt::format("{} normals for {} vertices", normals.size(), s.mesh->vertexCount()));
   const glm::mat3 linear = instance.deformed() ? glm::mat3(1.0f) : glm::mat3(instance.world_from_object);
   const glm::mat3 world_from_normal = normalTransform(linear);
-  s.normals.resize(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    s.normals[i] = unitOr(world_from_normal * normals[i], glm::vec3(0.0f));
+  if (s.triangles.positions) s.vertices.resize(normals.size());
+  for (std::size_t i = 0; i < s.vertices.size(); ++i)
+    s.vertices[i] = {s.triangles.positions[i], unitOr(world_from_normal * normals[i], glm::vec3(0.0f))};
 
   const Material& m = *s.material;
   const Mesh& mesh = *s.mesh;
@@ -103,8 +103,9 @@ bool Surfaces::arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trac
   const Surface& s = instances_[std::size_t(hit.instance)];
   const glm::uvec3 corners = s.triangles.vertices[hit.triangle];
   for (int c = 0; c < 3; ++c) {
-    arrivals.corners.positions[c].set(lane, s.triangles.positions[corners[c]]);
-    arrivals.corners.normals[c].set(lane, s.normals[corners[c]]);
+    const WorldVertex& vertex = s.vertices[corners[c]];
+    arrivals.corners.positions[c].set(lane, vertex.position);
+    arrivals.corners.normals[c].set(lane, vertex.normal);
   }
   arrivals.corners.u.at[lane] = hit.u;
   arrivals.corners.v.at[lane] = hit.v;

@@ -41,8 +41,7 @@ class Surfaces {
     const Surface& s = instances_[std::size_t(hit.instance)];
     const glm::uvec3& corner = s.triangles.vertices[hit.triangle];
     for (int i = 0; i < 3; ++i) {
-      __builtin_prefetch(&s.triangles.positions[corner[i]]);
-      __builtin_prefetch(&s.normals[corner[i]]);
+      __builtin_prefetch(&s.vertices[corner[i]]);
     }
   }
   /// Whether a texture shift changes anything.
@@ -62,11 +61,14 @@ class Surfaces {
   }
 
  private:
+  struct alignas(32) WorldVertex {  // all of it comes from memory at once
+    glm::vec3 position, normal;
+  };
   struct Surface {
     const Mesh* mesh = nullptr;
     const Material* material = nullptr;
     trace::Tracer::Triangles triangles;
-    std::vector<glm::vec3> normals;   // in the world
+    std::vector<WorldVertex> vertices;
     std::vector<glm::vec4> tangents;  // in the world, where there is a normal map
     TextureReader base_color, metallic_roughness, normal, emission;
     const glm::vec4* colors = nullptr;
