@@ -238,7 +238,8 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
     const NeighbourhoodBuffers& buffers = neighbourhoodFor(inputs, settings.integer("order"));
     neighbourhood.emplace(
         graph, inputs, buffers, transfer,
-        frame::windowed(inputs.environment.sh(), buffers.lightOrder(), windowOf(settings.choice("window"))));
+        frame::windowed(inputs.environment.sh(), buffers.lightOrder(), windowOf(settings.choice("window"))),
+        settings.choice("window") == "auto");
     neighbourhood->lightVertices(transfer, vertex_light);
   }
 
