@@ -41,19 +41,4 @@ inline Circle circle(float turns) {
   return {quarterSine(0.25f - size), std::copysign(quarterSine(0.25f - std::abs(size - 0.25f)), t)};
 }
 
-/// sampling::frame(axis) * (direction about +Z).
-inline glm::vec3 about(const glm::vec3& n, float x, float y, float z) {
-  const float sign = std::copysign(1.0f, n.z);
-  const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-  return {(1.0f + sign * n.x * n.x * a) * x + b * y + n.x * z,
-          sign * b * x + (sign + n.y * n.y * a) * y + n.y * z, -sign * n.x * x - n.y * y + n.z * z};
-}
-
-/// About a unit axis, with density cosine / pi.
-inline glm::vec3 cosineAbout(const glm::vec3& axis, float u, float v) {
-  const float radius = std::sqrt(u);
-  const Circle azimuth = circle(v);
-  return about(axis, radius * azimuth.cosine, radius * azimuth.sine, std::sqrt(1.0f - u));
-}
-
 }  // namespace gloam::reference::angles

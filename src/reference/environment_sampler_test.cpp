@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/sampling.h"
+#include "math/simd_test_targets.h"
 #include "reference/sampler.h"
 #include "scene/environment.h"
 
@@ -112,7 +113,7 @@ void expectUnbiased(const EnvironmentSampler& sampler) {
 }
 
 // Out of sixteen directions at once: the same as out of each.
-TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
+void compareLanesWithOne() {
   for (const int order : {0, 3}) {
     for (const glm::ivec2 size : {glm::ivec2(32, 16), glm::ivec2(3, 2), glm::ivec2(1, 1)}) {
       const EnvironmentSampler sampler(oddSky(size.x, size.y), order);
@@ -135,6 +136,13 @@ TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
       }
     }
   }
+}
+
+TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
+  onEveryTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    compareLanesWithOne();
+  });
 }
 
 TEST(EnvironmentSampler, SamplesAreUnbiased) {

@@ -196,6 +196,7 @@ HWY_INLINE Circle circle(V turns) {
   return {quarterSine(hn::Sub(quarter, size)),
           hn::CopySign(quarterSine(hn::Sub(quarter, hn::Abs(hn::Sub(size, quarter)))), t)};
 }
+/// sampling::frame(axis) * (direction about +Z).
 HWY_INLINE V3 about(const V3& n, V x, V y, V z) {
   const V sign = hn::CopySign(all(1.0f), n.z);
   const V a = hn::Div(all(-1.0f), hn::Add(sign, n.z)), b = hn::Mul(hn::Mul(n.x, n.y), a);
@@ -205,6 +206,7 @@ HWY_INLINE V3 about(const V3& n, V x, V y, V z) {
           hn::MulAdd(hn::Mul(sign, b), x, hn::MulAdd(yy, y, hn::Mul(n.y, z))),
           hn::NegMulAdd(hn::Mul(sign, n.x), x, hn::NegMulAdd(n.y, y, hn::Mul(n.z, z)))};
 }
+/// About a unit axis, with density cosine / pi.
 HWY_INLINE V3 cosineAbout(const V3& axis, V u, V v) {
   const V radius = hn::Sqrt(u);
   const Circle azimuth = circle(v);

@@ -198,10 +198,12 @@ void lightKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mas
         std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) + std::size_t(places.cell_x.at[i]);
     const float* corner = &sky.texels[2 * cell].x;
     const auto x = hn::Set(four, places.x.at[i]), y = hn::Set(four, places.y.at[i]);
-    const auto upper_left = hn::LoadU(four, corner), upper_right = hn::LoadU(four, corner + 8);
-    const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 4), upper_left), y, upper_left);
-    const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 12), upper_right), y, upper_right);
-    hn::Store(hn::MulAdd(hn::Sub(right, left), x, left), four, texels + 4 * i);
+    for (std::size_t c = 0; c < 4; c += hn::Lanes(four)) {  // all four channels, where vectors are so wide
+      const auto upper_left = hn::LoadU(four, corner + c), upper_right = hn::LoadU(four, corner + 8 + c);
+      const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 4 + c), upper_left), y, upper_left);
+      const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 12 + c), upper_right), y, upper_right);
+      hn::Store(hn::MulAdd(hn::Sub(right, left), x, left), four, texels + 4 * i + c);
+    }
   }
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     V3 radiance;

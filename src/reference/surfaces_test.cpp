@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "math/sampling.h"
+#include "math/simd_test_targets.h"
 #include "reference/test_points.h"
 #include "scene/builtin_shapes.h"
 #include "scene/camera_rays.h"
@@ -42,7 +43,7 @@ struct AtPoint {
   }
 };
 
-TEST(PathLanes, LobesAreThoseOfTheBrdf) {
+void compareLobesWithBrdf() {
   for (const brdf::Lobes& lobes :
        {brdf::makeLobes({0.7f, 0.4f, 0.1f}, 0.0f, 0.5f), brdf::makeLobes({0.9f, 0.8f, 0.1f}, 1.0f, 0.2f),
         brdf::makeLobes(glm::vec3(0.5f), 0.3f, 1.0f), brdf::makeLobes(glm::vec3(0.5f), 0.0f, 1.0f, 0.0f)}) {
@@ -70,8 +71,15 @@ TEST(PathLanes, LobesAreThoseOfTheBrdf) {
   }
 }
 
+TEST(PathLanes, LobesAreThoseOfTheBrdf) {
+  onEveryTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    compareLobesWithBrdf();
+  });
+}
+
 // Mean of f / density over the lobes' own samples is the integral of f, here of the lobes' value times a smooth function.
-TEST(PathLanes, StepsFollowTheirDensity) {
+void compareStepsWithTheirDensity() {
   const brdf::Lobes lobes = brdf::makeLobes({0.7f, 0.4f, 0.1f}, 0.2f, 0.6f);
   AtPoint at(lobes, {0.0f, 1.0f, 0.0f}, glm::normalize(glm::vec3(0.8f, 0.5f, 0.3f)));
   const auto smooth = [](const glm::vec3& d) { return 1.0 + double(d.x) * double(d.y) - 0.5 * double(d.z); };
@@ -90,6 +98,13 @@ TEST(PathLanes, StepsFollowTheirDensity) {
   EXPECT_NEAR(by_lobes, by_sphere, 1e-3 * by_sphere);
 }
 
+TEST(PathLanes, StepsFollowTheirDensity) {
+  onEveryTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    compareStepsWithTheirDensity();
+  });
+}
+
 // A narrow lobe keeps its energy: value over density, in floats, for the smoothest surface there is.
 TEST(PathLanes, MirrorsKeepTheirEnergy) {
   const brdf::Lobes lobes = brdf::makeLobes(glm::vec3(1.0f), 1.0f, 0.0f);
@@ -104,7 +119,7 @@ TEST(PathLanes, MirrorsKeepTheirEnergy) {
 }
 
 // What is read of textures is what trace/surface.h reads.
-TEST(TextureReader, IsTheFunctionForOnePoint) {
+void compareTexturesWithOnePoint() {
   Scene scene;
   Texture texture{"", 3, 5, {}};
   for (int i = 0; i < 3 * 5 * 4; ++i) texture.rgba.push_back(std::uint8_t(i * 37 % 256));
@@ -136,6 +151,13 @@ TEST(TextureReader, IsTheFunctionForOnePoint) {
     }
   }
   EXPECT_EQ(TextureReader().at({0, 1, 2}, 0.3f, 0.3f), glm::vec4(1.0f));
+}
+
+TEST(TextureReader, IsTheFunctionForOnePoint) {
+  onEveryTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    compareTexturesWithOnePoint();
+  });
 }
 
 Mesh sheet(bool turned) {
