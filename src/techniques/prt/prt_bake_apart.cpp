@@ -64,6 +64,14 @@ void addReport(const BakeReport& one, BakeReport& sum) {
     sum.cheap_error = std::sqrt((sum.cheap_error * sum.cheap_error * double(sum.glossy_points) +
                                  one.cheap_error * one.cheap_error * weight) /
                                 double(sum.glossy_points + one.glossy_points));
+  const double before = double(sum.vertices), here = double(one.vertices), all = std::max(1.0, before + here);
+  sum.mean_directions = (sum.mean_directions * before + one.mean_directions * here) / all;
+  sum.error = std::sqrt((sum.error * sum.error * before + one.error * one.error * here) / all);
+  sum.most_directions = std::max(sum.most_directions, one.most_directions);
+  sum.rays_saved += one.rays_saved;
+  sum.above_error += one.above_error;
+  sum.bounce_s.resize(std::max(sum.bounce_s.size(), one.bounce_s.size()));
+  for (std::size_t b = 0; b < one.bounce_s.size(); ++b) sum.bounce_s[b] += one.bounce_s[b];
   sum.vertices += one.vertices;
   sum.rays += one.rays;
   sum.bounce_rays += one.bounce_rays;
@@ -71,6 +79,8 @@ void addReport(const BakeReport& one, BakeReport& sum) {
   sum.bounces_s += one.bounces_s;
   sum.resumed = sum.resumed || one.resumed;
   sum.glossy_points += one.glossy_points;
+  sum.texels += one.texels;
+  sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
 std::filesystem::path checkpointOf(const BakeOptions& options, int object) {
