@@ -58,12 +58,30 @@ void addRound(SceneBuilder& builder, int node, const glm::vec3& middle, const gl
 
 }  // namespace
 
-Scene makeLanterns(const Detail& detail, NamedValues&) {
+/// The knot, and of what lights it a panel or a lamp alone, out of the picture.
+static Scene makeLantern(SceneBuilder& builder, const Detail& detail, bool lamp_alone) {
+  builder.place("knot", shapes::torusKnot(2, 3, 0.34f, 0.15f, 0.085f, detail(220), detail(18)),
+                builder.diffuse("chalk", {0.78f, 0.77f, 0.75f}));
+  if (lamp_alone) {
+    Light lamp;
+    lamp.name = "lamp";
+    lamp.intensity = {2.6f, 2.4f, 2.2f};
+    builder.light(lamp, {-0.6f, 1.2f, 0.6f});
+  } else {
+    addPanel(builder, "amber", {6.0f, 2.6f, 0.6f}, {-0.95f, 0.0f, 0.1f}, 90.0f, detail);
+  }
+  builder.camera({0.4f, 0.5f, 2.2f}, {0.0f, 0.0f, 0.0f}, 30);
+  return builder.finish();
+}
+
+Scene makeLanterns(const Detail& detail, NamedValues& values) {
   SceneBuilder builder("lanterns");
+  const int alone = int(values.take("alone", 0, 0, 2));
+  if (alone > 0) return makeLantern(builder, detail, alone == 2);
   builder.place("floor", shapes::slab(2.3f, 1.9f, 0.15f, 0.05f, detail.cell(0.07f)),
                 builder.diffuse("floor", {0.55f, 0.54f, 0.52f}));
-  addPanel(builder, "amber", {6.0f, 2.6f, 0.6f}, {-1.75f, 0.72f, -0.25f}, 72.0f, detail);
-  addPanel(builder, "blue", {0.5f, 1.7f, 6.5f}, {1.75f, 0.72f, -0.25f}, -72.0f, detail);
+  addPanel(builder, "amber", {3.0f, 1.3f, 0.3f}, {-1.75f, 0.72f, -0.25f}, 72.0f, detail);
+  addPanel(builder, "blue", {0.25f, 0.85f, 3.2f}, {1.75f, 0.72f, -0.25f}, -72.0f, detail);
 
   const int knot =
       builder.place("knot", shapes::torusKnot(2, 3, 0.34f, 0.15f, 0.085f, detail(220), detail(18)),
@@ -78,11 +96,11 @@ Scene makeLanterns(const Detail& detail, NamedValues&) {
 
   Light lamp;
   lamp.name = "lamp";
-  lamp.intensity = {2.6f, 2.4f, 2.2f};
+  lamp.intensity = {1.3f, 1.2f, 1.1f};
   const int light = builder.light(lamp, {0.0f, 1.9f, 0.6f});
   addRound(builder, light, {0.0f, 1.9f, 0.2f}, {1.3f, 0.8f}, -kPi / 2);
-  builder.camera({0.0f, 2.1f, 5.2f}, {0.0f, 0.5f, 0.0f}, 36);
-  builder.sky("uniform?radiance=0.03");
+  builder.camera({0.0f, 2.5f, 5.6f}, {0.0f, 0.38f, -0.1f}, 33);
+  builder.sky("uniform?intensity=0.03");
   return builder.finish();
 }
 

@@ -114,7 +114,8 @@ const TechniqueInfo& info() {
                "were in the way"},
       {.name = "neighbourhood",
        .default_value = true,
-       .help = "shadow and light that objects throw on others, where a neighbourhood is baked (and local_light is "
+       .help = "shadow and light that objects throw on others, where a neighbourhood is baked (and "
+               "local_light is "
                "off, which has them from its probes)"},
       {.name = "local_light",
        .default_value = std::string("off"),
@@ -183,16 +184,33 @@ const GlossyBuffers& Prt::glossyFor(const frame::FrameInputs& inputs, const Glos
 void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,
                    frame::Lighting& lighting) {
   const std::string choice = settings.choice("glossy");
+  const bool local = settings.choice("local_light") != "off";
   if (choice == "unshadowed") return;
   const GlossyBuffers& glossy = glossyFor(inputs, {.order = settings.integer("order"),
-                                                   .cheap = choice == "cheap",
+                                                   .cheap = choice == "cheap" && !local,
                                                    .half_float = settings.flag("half_float"),
                                                    .chunk_bytes = chunk_bytes_});
   if (glossy.empty()) return;
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), glossy.lightOrder(), windowOf(settings.choice("window")));
-  lighting.gloss = recordGloss(graph, inputs, glossy, light, settings.choice("window") == "auto",
-                               settings.flag("indirect"));
+  const bool damped = settings.choice("window") == "auto";
+  LocalGloss of_probes;
+  if (local) {
+    if (glossy.lightOrder() > transfer_->order()) return;
+    std::vector<std::uint32_t> first_outputs;
+    for (const GlossRow& row : glossy.instanceRows(inputs.scene)) first_outputs.push_back(row.first_vertex);
+    of_probes = {
+        .lights = local_->lights(),
+        .places = local_->places(),
+        .trust = local_->trust(),
+        .rows = graph.upload("prt.local_gloss_rows", local_->rowsOf(inputs.scene, *transfer_, first_outputs)),
+        .points = local_->points(),
+        .order = transfer_->order()};
+    if (choice == "cheap")
+      inputs.warnings.push_back("prt.glossy cheap: under local light it is drawn by matrices");
+  }
+  lighting.gloss = recordGloss(graph, inputs, glossy, light, damped, settings.flag("indirect"),
+                               local ? &of_probes : nullptr);
   lighting.has_environment_gloss = true;
 }
 
@@ -204,6 +222,11 @@ gpu::BufferRef Prt::lightVerticesLocally(gpu::FrameGraph& graph, const frame::Fr
     local_.emplace(inputs.scene, transfer, points);
     local_revision_ = revision;
   }
+  if (local_->objects().size() == 1 && transfer.litInstances().size() == inputs.scene.instances().size() &&
+      transfer.litInstances().size() > 1)
+    inputs.warnings.push_back(
+        "prt.local_light: all was baked as one object, around which there is only sky; `gloam bake --apart` "
+        "makes objects that light one another");
   const bool damped = settings.choice("window") == "auto";
   return local_->record(graph, inputs, transfer, probe_tables_,
                         {.lamps = settings.choice("local_light") == "all",

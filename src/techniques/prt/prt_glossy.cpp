@@ -14,12 +14,13 @@ namespace gloam::prt {
 
 std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                       const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
-                                      bool indirect) {
+                                      bool indirect, const LocalGloss* local) {
   // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
   std::vector<glm::vec3> light_rows;
   float greatest = 0.0f;
-  for (const glm::vec3& c : light.coefficients())
+  for (const glm::vec3& c : light.coefficients())  // what probes will see is not known here
     greatest = std::max({greatest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+  if (local) greatest = 1.0f;
   sh::ShRgb exposed = light;
   if (greatest > 0.0f) exposed *= glm::vec3(1.0f / greatest);
   light_rows = glossy.lightRows(exposed, inputs.scene);
@@ -31,8 +32,9 @@ std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::Frame
   for (const TransferChunk& chunk : glossy.chunks()) {
     const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
     const std::uint32_t rows = (chunk.block_count + columns - 1) / columns;
-    graph.compute("prt.gloss_vertices", prt_gloss_vertices_spv)
-        .specialize("light_order", glossy.lightOrder())
+    auto& pass = local ? graph.compute("prt.local_gloss", prt_local_gloss_spv)
+                       : graph.compute("prt.gloss_vertices", prt_gloss_vertices_spv);
+    pass.specialize("light_order", glossy.lightOrder())
         .specialize("field_order", glossy.fieldOrder())
         .specialize("has_indirect", glossy.hasIndirect())
         .specialize("half_float", glossy.options().half_float)
@@ -41,9 +43,20 @@ std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::Frame
         .read("transfer_direct", chunk.direct)
         .read("transfer_indirect", chunk.indirect)
         .read("lights", lights)
-        .write("fields", fields)
-        .push(chunk.block_count)
-        .dispatch(columns, rows);
+        .write("fields", fields);
+    if (local) {
+      pass.specialize("points", local->points)
+          .specialize("probe_coefficients", local->order * local->order)
+          .read("probe_lights", local->lights)
+          .read("probe_places", local->places)
+          .read("trust", local->trust)
+          .read("positions", inputs.scene.positions())
+          .read("rows", local->rows)
+          .push(glm::uvec2(chunk.block_count, static_cast<std::uint32_t>(glossy.lightRowSize())));
+    } else {
+      pass.push(chunk.block_count);
+    }
+    pass.dispatch(columns, rows);
   }
 
   const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,

@@ -8,10 +8,17 @@
 
 namespace gloam::prt {
 
+/// Light of probes in place of the world's (LocalLight).
+struct LocalGloss {
+  gpu::BufferRef lights, places, trust;  ///< as LocalLight has them
+  gpu::BufferRef rows;                   ///< LocalRow, of each instance that `glossy` lights
+  int points = 0, order = 0;             ///< an object; bands of `lights`, no fewer than `glossy` takes
+};
+
 /// Adds "prt.gloss_vertices", once a chunk, and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be
-/// used; `damped`: where ringing makes a lobe negative, a blunter one is mixed in. The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
+/// used; `damped`: where ringing makes a lobe negative, a blunter one is mixed in. With `local` the pass is "prt.local_gloss". The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
 std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                       const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
-                                      bool indirect);
+                                      bool indirect, const LocalGloss* local = nullptr);
 
 }  // namespace gloam::prt

@@ -41,10 +41,11 @@ class GlossyBuffers {
   /// 32-bit words of a vertex's radiance, and vertices that all chunks write.
   std::size_t fieldWords() const;
   std::size_t outputVertices() const { return output_vertices_; }
+  /// Values an instance takes of lightRows().
+  std::size_t lightRowSize() const;
 
  private:
   void findLit(const frame::GpuScene& scene);
-  std::size_t lightRowSize() const;
   void fillChunks(gpu::Device& device, const frame::GpuScene& scene);
   void packVertex(const GlossyTransfer& glossy, std::uint32_t vertex, std::uint32_t* direct,
                   std::uint32_t* indirect) const;

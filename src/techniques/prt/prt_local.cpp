@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSurfacePoints = 3000;
 /// Weights have no peak nearer to a probe than this share of the spacing of an object's probes.
-constexpr float kSoftness = 0.35f;
+constexpr float kSoftness = 0.2f;
 constexpr float kNear = 1e-3f;  ///< where a cube's picture begins, of the object's extent
 
 std::array<float, 6> bandFactors(frame::Window window, int order) {
@@ -145,6 +145,19 @@ std::vector<LocalRow> LocalLight::rowsNow(const frame::GpuScene& scene, const Tr
   return rows;
 }
 
+std::vector<LocalRow> LocalLight::rowsOf(const frame::GpuScene& scene, const TransferBuffers& transfer,
+                                         std::span<const std::uint32_t> first_outputs) const {
+  std::vector<LocalRow> rows;
+  for (std::size_t n = 0; n < lit_rows_.size(); ++n) {
+    const std::uint32_t instance = transfer.litInstances()[n];
+    if (first_outputs[instance] == kUnbaked) continue;
+    rows.push_back(lit_rows_[n]);
+    rows.back().first_output = first_outputs[instance];
+    rows.back().first_vertex = scene.instances()[instance].first_vertex;
+  }
+  return rows;
+}
+
 void LocalLight::lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene,
                                const TransferBuffers& transfer, bool damped, gpu::BufferRef output) const {
   const gpu::Limits& limits = graph.device().limits();
@@ -176,7 +189,7 @@ gpu::BufferRef LocalLight::record(gpu::FrameGraph& graph, const frame::FrameInpu
   const frame::GpuScene& scene = inputs.scene;
   const std::vector<frame::ProbePlace> places = placesNow(scene);
   std::vector<frame::ProbeReceiver> receivers;
-  const std::vector<LocalRow> rows = rowsNow(scene, transfer, receivers);
+  lit_rows_ = rowsNow(scene, transfer, receivers);
   std::vector<glm::vec3> positions;
   for (const frame::ProbePlace& place : places) positions.push_back(place.position);
   frame::Probes probes(graph, inputs, tables, "prt.local_cube", places, groups_,
@@ -185,7 +198,7 @@ gpu::BufferRef LocalLight::record(gpu::FrameGraph& graph, const frame::FrameInpu
                         .band_factors = bandFactors(options.window, transfer.order()),
                         .lamps_direct = options.lamps});
   probes.setReceivers(receivers);
-  rows_ = graph.upload("prt.local_rows", rows);
+  rows_ = graph.upload("prt.local_rows", lit_rows_);
   places_ = graph.upload("prt.local_places", positions);
   lights_ = probes.lights();
   trust_ = probes.trust();

@@ -44,7 +44,9 @@ class LocalLight {
 
   // Of the last record():
   gpu::BufferRef lights() const { return lights_; }  ///< frame::ProbeLight, [job][coefficient of `order`]
-  gpu::BufferRef rows() const { return rows_; }      ///< LocalRow, of each lit instance
+  /// Of the instances whose vertices' radiance begins at `first_outputs` (by instance; kUnbaked: none).
+  std::vector<LocalRow> rowsOf(const frame::GpuScene& scene, const TransferBuffers& transfer,
+                               std::span<const std::uint32_t> first_outputs) const;
   gpu::BufferRef places() const { return places_; }  ///< of probes, in the world
   gpu::BufferRef trust() const { return trust_; }
 
@@ -60,6 +62,7 @@ class LocalLight {
   int points_;
   std::vector<LocalObject> objects_;
   std::vector<std::uint32_t> object_of_lit_;  ///< by lit instance
+  std::vector<LocalRow> lit_rows_;            ///< by lit instance, of the last record()
   std::vector<std::uint32_t> groups_;         ///< by instance: its object, or frame::kNoGroup
   gpu::BufferRef lights_, rows_, places_, trust_;
 };

@@ -249,6 +249,57 @@ TEST(PrtLocal, BuriedPointsDoNotCount) {
   }
 }
 
+// Gloss, too, is lit by probes: with nothing near, as under distant light; by what glows where something does.
+TEST(PrtLocal, GlossSeesLocalLight) {
+  const auto drawn = [](const Scene& scene, const char* local_light) {
+    const PosedScene posed = pose(scene, 0.0f);
+    frame::TestFrame frame(scene);
+    Prt technique(gpu::testDevice());
+    const Settings values = settings({{"local_light", local_light}, {"local_points", "2"}});
+    const auto images =
+        frame.draw(posed, frame::cameraAt({0, 0, 2.5f}, {0, 0, 0}), {.width = kSize, .height = kSize},
+                   [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                     return technique.record(graph, inputs, values);
+                   });
+    return images.direct.image().downloadFloats();
+  };
+  const auto baked = [](bool glow) {
+    SceneBuilder builder("gloss");
+    builder.place("ball", shapes::icosphere(0.5f, 8), builder.metal("metal", glm::vec3(0.9f), 0.7f));
+    if (glow) {
+      const int material = builder.diffuse("glow", glm::vec3(0.0f));
+      builder.material(material).emission = glm::vec3(2.0f);
+      builder.place("glow", shapes::icosphere(2.0f, 6), material, {0.0f, 6.0f, 0.0f});
+    }
+    return bakeTransfer(builder.finish(), {.kind = TransferKind::kShadowed,
+                                           .order = 5,
+                                           .directions = 512,
+                                           .glossy = GlossyMeshes::kShiny,
+                                           .apart = true});
+  };
+  Scene alone = baked(false);
+  alone.environment = loadEnvironment("sky:preetham?elevation=30");
+  const std::vector<float> distant = drawn(alone, "off"), local = drawn(alone, "emitters");
+  float greatest = 0.0f;
+  for (std::size_t i = 0; i < distant.size(); ++i)
+    greatest = std::max(greatest, i % 4 == 3 ? 0.0f : distant[i]);
+  for (std::size_t i = 0; i < distant.size(); ++i) ASSERT_NEAR(local[i], distant[i], 0.01f * greatest) << i;
+
+  const std::vector<float> lit = drawn(baked(true), "emitters"), dark = drawn(baked(true), "off");
+  const std::size_t upper = 4 * std::size_t(22 * kSize + kSize / 2),
+                    lower = 4 * std::size_t(44 * kSize + kSize / 2);
+  EXPECT_GT(lit[upper], 0.05f);
+  EXPECT_LT(lit[lower], 0.3f * lit[upper]);
+  EXPECT_EQ(dark[upper], 0.0f);
+}
+
+TEST(PrtLocal, AnswersForMoreLight) {
+  const Settings off = settings({{"local_light", "off"}}), on = settings();
+  EXPECT_EQ(coverageWith(info(), off), info().covers);
+  EXPECT_EQ(coverageWith(info(), on), kAllLight);
+  EXPECT_NE(info().covers, kAllLight);
+}
+
 TEST(PrtLocal, PickedPointsSurroundTheSurface) {
   const Mesh ball = shapes::icosphere(1.0f, 6);
   SurfaceSampler sampler;
