@@ -6,6 +6,7 @@
 #include <gloam/neighbourhood.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
@@ -164,16 +165,21 @@ TEST(PrtNeighbourhood, SameBitsForAnyNumberOfThreadsAndAfterInterruptions) {
   std::filesystem::remove(options.checkpoint);
   for (int interruptions = 0;; ++interruptions) {
     ASSERT_LT(interruptions, 1000);
-    Progress progress;
-    int asked = 0;
-    progress.should_stop = [&] { return ++asked > 14; };
+    Progress progress;  // stops soon after the first points are under way
+    std::atomic<int> asked{0};
+    std::atomic<bool> begun{false};
+    progress.update = [&](double, const std::string& what) {
+      if (what.find("neighbourhood") != std::string::npos) begun = true;
+    };
+    progress.should_stop = [&] { return begun && ++asked > 3; };
     NeighbourhoodReport report;
     try {
       EXPECT_TRUE(sameBits(one, bakeNeighbourhood(scene, 0, options, progress, &report)));
       EXPECT_TRUE(report.resumed);
       EXPECT_GT(interruptions, 2);
       break;
-    } catch (const Interrupted&) {  // in time while the tracer is still built, there is nothing to keep
+    } catch (const Interrupted&) {
+      ASSERT_TRUE(std::filesystem::exists(options.checkpoint));
     }
   }
   EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
