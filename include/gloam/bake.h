@@ -29,7 +29,7 @@ struct BakeOptions {
   int bounces = 2;         ///< for kInterreflected, 1 to 64
   int directions = 10000;  ///< a vertex in the first pass, 256 to 65536; rounded up to whole tiles of 16
   int bounce_directions =
-      2048;             ///< of the same set, 64 to 65536; the even subset that is nearest in size is taken
+      1024;             ///< of the same set, 64 to 65536; the even subset that is nearest in size is taken
   int threads = 0;      ///< 0: all cores. The result does not depend on it
   float time_s = 0.0f;  ///< instant at which the scene is posed
   GlossyMeshes glossy = GlossyMeshes::kNone;  ///< GU, GS or GI as `kind` is DU, DS or DI
