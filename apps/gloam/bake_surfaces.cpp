@@ -19,9 +19,9 @@ std::string splitText(const TessellateReport& report, float bound) {
   if (report.above == 0) return text;
   text += fmt::format("; {} triangles are above {:.1f} %", countText(report.above), 100.0 * double(bound));
   if (report.at_finest > 0)
-    text += fmt::format(", {} of them at edges of light and shadow, as small as they get",
+    text += fmt::format(", {} of them as small as they get: light ends there at an edge, or at a facet",
                         countText(report.at_finest));
-  if (report.at_finest < report.above) text += ": --tessellate-max allows no more";
+  if (report.at_finest < report.above) text += "; --tessellate-max allows no more";
   return text;
 }
 
