@@ -68,7 +68,7 @@ struct EnvironmentLights {
 };
 
 /// `base` (may be empty) with the lights added, to look at and to trace: an equirectangular map in which each disc covers
-/// its exact share of every texel, as fine as the smallest disc needs (4 texels across, at most 4096 x 2048). `base` keeps its
+/// its exact share of every texel, as fine as the smallest disc needs (3 texels across, at most 4096 x 2048). `base` keeps its
 /// texels where it is that large, and its rotation. The spherical harmonics are those of base and lights, not of the map.
 Environment paintLights(const Environment& base, std::span<const DistantLight> lights);
 
