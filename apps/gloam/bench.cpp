@@ -83,9 +83,10 @@ int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
     throw Error("--scaling", fmt::format("measures a scene of its own; not {}", choice.scene.name));
   if (!choice.output.empty() && !choice.paper && !choice.scaling)
     throw Error("--output", "is a plot, which --paper and --scaling draw");
+  if (suite != nullptr) refuseUnused(*suite, app);
   if (choice.paper) return benchPaper(choice, console);
   if (choice.scaling) return benchScaling(choice, console);
-  return suite != nullptr ? suite->run(choice.scene, console) : benchTechnique(choice, console);
+  return suite != nullptr ? suite->run(choice, console) : benchTechnique(choice, console);
 }
 
 std::function<int()> declareBench(CLI::App& app, Console& console) {

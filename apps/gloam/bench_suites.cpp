@@ -45,7 +45,7 @@ Json exponentialErrors(const std::vector<sh::ExpErrorRow>& rows) {
   return json;
 }
 
-int benchSphericalHarmonics(const SceneChoice&, Console& console) {
+int benchSphericalHarmonics(const BenchChoice&, Console& console) {
   const std::vector<sh::BenchRow> rows = sh::bench(9, 0.01, console.progress());
   const std::vector<sh::ExpErrorRow> errors = sh::expErrors(console.progress());
   console.endProgress();
@@ -68,15 +68,15 @@ int benchSphericalHarmonics(const SceneChoice&, Console& console) {
   return kDone;
 }
 
-int benchBaking(const SceneChoice& choice, Console& console) {
-  const Scene scene = loadSceneToDraw(choice, console);
+int benchBaking(const BenchChoice& choice, Console& console) {
+  const Scene scene = loadSceneToDraw(choice.scene, console);
   console.release();
   const PrtBakeBench result = benchBake(scene, {});
   const PrtBakeBench glossy =
       benchBake(scene, {.kind = TransferKind::kShadowed, .glossy = GlossyMeshes::kAll});
   if (!console.json) {
     console.print(fmt::format("{}: {} triangles, {} points, {:.3g} rays a round, {} rounds, all cores",
-                              choice.name, countText(result.triangles), countText(result.points),
+                              choice.scene.name, countText(result.triangles), countText(result.points),
                               double(result.rays), result.rounds));
     console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
     console.print(fmt::format("first pass      {:8.2f} Mrays/s", result.bake_mrays_s));
@@ -88,7 +88,7 @@ int benchBaking(const SceneChoice& choice, Console& console) {
     return kDone;
   }
   console.print(jsonText({{"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
-                          {"scene", choice.name},
+                          {"scene", choice.scene.name},
                           {"triangles", result.triangles},
                           {"points", result.points},
                           {"rays", result.rays},
@@ -103,25 +103,37 @@ int benchBaking(const SceneChoice& choice, Console& console) {
   return kDone;
 }
 
-int benchReferencePaths(const SceneChoice& choice, Console& console) {
-  const Scene scene = loadSceneToDraw(choice, console);
-  const Environment environment = chooseEnvironment(scene, {}, console);
-  const PosedScene posed = pose(scene, 0.0f);
-  const PosedCamera camera = chooseCamera(posed, {}, console);
+int benchRelighting(const BenchChoice& choice, Console& console) {
+  return benchRelight(choice.scene, console);
+}
+
+int benchReferencePaths(const BenchChoice& choice, Console& console) {
+  const ViewChoice& view = choice.view;
+  const Scene scene = loadSceneToDraw(choice.scene, console);
+  const Environment environment = chooseEnvironment(scene, choice.light, console, view.time_s);
+  const PosedScene posed = pose(scene, view.time_s);
+  const PosedCamera camera = chooseCamera(posed, view, console);
   console.release();
-  const ReferenceBench result = benchReference(scene, posed, camera, environment, {});
+  ReferenceOptions options;
+  options.width = view.size.x;
+  options.height = view.size.y;
+  options.supersample = view.supersample;
+  const ReferenceBench result = benchReference(scene, posed, camera, environment, options);
+  const std::string size = fmt::format("{}x{}", view.size.x, view.size.y);
   if (!console.json) {
     console.print(
-        fmt::format("{}: {} triangles, {} points, {} samples, {:.3g} rays a round, {} rounds, all cores",
-                    choice.name, countText(result.triangles), countText(result.points), result.samples,
-                    double(result.rays), result.rounds));
+        fmt::format("{}, {}: {} triangles, {} points, {} samples, {:.3g} rays a round, {} rounds, all cores",
+                    choice.scene.name, size, countText(result.triangles), countText(result.points),
+                    result.samples, double(result.rays), result.rounds));
     console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
     console.print(fmt::format("paths           {:8.2f} Mrays/s", result.paths_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", result.ratio));
     return kDone;
   }
   console.print(jsonText({{"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
-                          {"scene", choice.name},
+                          {"scene", choice.scene.name},
+                          {"environment", environment.empty() ? "none" : environment.name},
+                          {"size", size},
                           {"triangles", result.triangles},
                           {"points", result.points},
                           {"samples", result.samples},
@@ -134,17 +146,32 @@ int benchReferencePaths(const SceneChoice& choice, Console& console) {
 }
 
 constexpr BenchSuite kSuites[] = {
-    {"sh", "spherical harmonics on the CPU", benchSphericalHarmonics},
-    {"reference", "the path tracer's ray rate against that of the tracing library alone",
+    {"sh", "spherical harmonics on the CPU", false, false, benchSphericalHarmonics},
+    {"reference", "the path tracer's ray rate against that of the tracing library alone", true, true,
      benchReferencePaths},
-    {"bake", "the baker's ray rate against that of the tracing library alone", benchBaking},
-    {"relight", "what a change of light costs, against the device's own copies", benchRelight},
+    {"bake", "the baker's ray rate against that of the tracing library alone", true, false, benchBaking},
+    {"relight", "what a change of light costs, against the device's own copies", true, false,
+     benchRelighting},
 };
+
+bool takes(const BenchSuite& suite, const CLI::Option& option) {
+  const std::string name = option.get_name(), group = option.get_group();
+  if (group == "Light" || group == "View") return suite.takes_light_and_view;
+  if (name == "SCENE" || name == "--ground") return suite.takes_scene;
+  return name == "TECHNIQUE" || name == "--settings" || name == "--quiet" || name == "--json";
+}
 
 }  // namespace
 
 std::span<const BenchSuite> benchSuites() {
   return kSuites;
+}
+
+void refuseUnused(const BenchSuite& suite, const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || takes(suite, *option)) continue;
+    throw Error(option->get_name(), fmt::format("means nothing to what measures '{}'", suite.name));
+  }
 }
 
 }  // namespace gloam::cli

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 
+#include "bench_stage.h"
 #include "console.h"
-#include "scene_inputs.h"
 
 namespace gloam::cli {
 
@@ -13,8 +14,13 @@ namespace gloam::cli {
 struct BenchSuite {
   const char* name;
   const char* summary;
-  int (*run)(const SceneChoice& scene, Console& console);
+  /// Which options it has a use for; of the others some are refused, none is dropped silently.
+  bool takes_scene, takes_light_and_view;
+  int (*run)(const BenchChoice& choice, Console& console);
 };
 std::span<const BenchSuite> benchSuites();
+
+/// Throws Error for an option that was given and means nothing to the suite.
+void refuseUnused(const BenchSuite& suite, const CLI::App& app);
 
 }  // namespace gloam::cli

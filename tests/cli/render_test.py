@@ -212,6 +212,28 @@ class Bench(CliTest):
         for entry in result["passes"]:
             self.assertIn(entry["name"], out)
 
+    def test_reference_is_measured_as_it_is_asked_for(self):
+        def measured(*arguments):
+            return self.succeed_json("bench", "reference", BOX, *arguments)
+
+        plain = measured("--size", "24", "--env", "sky:uniform")
+        self.assertEqual((plain["scene"], plain["size"], plain["environment"]), (BOX, "24x24", "sky:uniform"))
+        self.assertLessEqual(plain["points"], 24 * 24)
+        self.assertEqual(measured(*SMALL, "--env", "none", "--light", "constant?radiance=1")["size"], "48x32")
+        self.assertGreater(measured("--size", "24", "--ground")["triangles"], plain["triangles"])
+        self.assertGreater(measured("--size", "24", "--supersample", "2")["points"], 2 * plain["points"])
+        # A camera far away sees fewer places of the box.
+        self.assertLess(measured("--size", "24", "--eye", "9,9,30", "--target", "0,0,0")["points"], plain["points"] / 2)
+        self.refuse("bench", "reference", BOX, "--env", "no.exr", says="no.exr")
+        self.refuse("bench", "reference", BOX, "--camera", "nobody", says="nobody")
+
+    def test_what_means_nothing_is_refused(self):
+        for subject, option, value in (("reference", "--frames", "3"), ("reference", "--device", "0"), ("bake", "--size", "16"),
+                                       ("bake", "--env", "none"), ("relight", "--fov", "30"), ("sh", "--size", "16")):
+            self.refuse("bench", subject, option, value, says=[option, subject])
+        self.refuse("bench", "reference", "--prt.window", "none", says=["--prt.window", "reference"])
+        self.refuse("bench", "sh", BOX, says=["SCENE", "sh"])
+
     def test_unknown_subject(self):
         self.refuse("bench", "no-such", says=["no-such", "irradiance"])
 
