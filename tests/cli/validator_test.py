@@ -9,7 +9,7 @@ import unittest
 
 from harness import SOURCE, CliTest
 
-SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "columns", "gallery", "lamp", "textured", "walker",
+SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "caustic", "columns", "gallery", "lamp", "textured", "walker",
           "mobile", "passing", "ring"]
 
 

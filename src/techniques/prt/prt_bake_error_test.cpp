@@ -39,8 +39,7 @@ Error errorOf(const Scene& a, const Scene& b) {
   BakeOptions none = shadowed(5);
   none.kind = TransferKind::kUnshadowed;
   const Scene unshadowed = bakeTransfer(sceneOf(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 0, -1})), none);
-  for (const float value : unshadowed.meshes[0].transfer->direct)
-    open += double(value) * double(value) / 4.0;
+  for (const float value : unshadowed.meshes[0].transfer->direct) open += double(value) * double(value) / 4.0;
   for (std::size_t m = 0; m < a.meshes.size(); ++m) {
     const Transfer &s = *a.meshes[m].transfer, &t = *b.meshes[m].transfer;
     for (std::size_t i = 0; i < s.direct.size(); ++i)

@@ -30,6 +30,25 @@ float directionWeight(float known, double seen, std::size_t tiles) {
 
 }  // namespace
 
+void packHits(const std::vector<RawHit>& raw, std::vector<GatheredHit>& hits, PointHits& point) {
+  float largest = 0.0f;
+  for (const RawHit& hit : raw)
+    largest = std::max(largest, std::max(hit.weight.x, std::max(hit.weight.y, hit.weight.z)));
+  point.scale = largest / kHitSteps;
+  const float steps = largest > 0.0f ? kHitSteps / largest : 0.0f;
+  const auto quantised = [](float x, float by) {
+    return std::uint16_t(std::clamp(x * by + 0.5f, 0.0f, kHitSteps));
+  };
+  for (const RawHit& hit : raw) {
+    hits.push_back(
+        {{hit.points.x, hit.points.y, hit.points.z},
+         {quantised(hit.share.y, kHitSteps), quantised(hit.share.z, kHitSteps)},
+         {quantised(hit.weight.x, steps), quantised(hit.weight.y, steps), quantised(hit.weight.z, steps)},
+         std::uint16_t(hit.mirrors)});
+  }
+  point.end = std::uint32_t(hits.size());
+}
+
 // Who is hit sends its transfer on from the side that its normals look at. A back blocks and sends nothing: the transfer
 // of a thin sheet's vertices says nothing of its other side.
 void BakePasses::addHits(std::size_t point, const trace::RayPacket& rays, const trace::HitPacket& found,

@@ -4,7 +4,6 @@
 // Sloan, Kautz, Snyder 2002, section 5: shadow rays and the SH projection of what they find (PRT-1, PRT-3).
 #include "techniques/prt/prt_bake_kernels.h"
 
-#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -290,25 +289,6 @@ void projectBlocked(const DirectionTables& tables, const DirectionBatch& batch,
     (view, &normals[p].x, of_batch[p], active.data(), active.size(), kStride, weights.get() + p * kTileSize);
   }
   HWY_DYNAMIC_DISPATCH(Accumulate)(view, active.data(), active.size(), weights.get(), sums);
-}
-
-void packHits(const std::vector<RawHit>& raw, std::vector<GatheredHit>& hits, PointHits& point) {
-  float largest = 0.0f;
-  for (const RawHit& hit : raw)
-    largest = std::max(largest, std::max(hit.weight.x, std::max(hit.weight.y, hit.weight.z)));
-  point.scale = largest / kHitSteps;
-  const float steps = largest > 0.0f ? kHitSteps / largest : 0.0f;
-  const auto quantised = [](float x, float by) {
-    return std::uint16_t(std::clamp(x * by + 0.5f, 0.0f, kHitSteps));
-  };
-  for (const RawHit& hit : raw) {
-    hits.push_back(
-        {{hit.points.x, hit.points.y, hit.points.z},
-         {quantised(hit.share.y, kHitSteps), quantised(hit.share.z, kHitSteps)},
-         {quantised(hit.weight.x, steps), quantised(hit.weight.y, steps), quantised(hit.weight.z, steps)},
-         std::uint16_t(hit.mirrors)});
-  }
-  point.end = std::uint32_t(hits.size());
 }
 
 void gatherHits(const GatherSources& sources, int coefficients, std::span<const GatheredHit> hits,

@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// The passes of a bake (PRT-1, PRT-3), a block of points at a time.
+// The passes of a bake (PRT-1, PRT-3), a block of points at a time. Long, since five files implement one class whose parts
+// share what they read.
 #pragma once
 
 #include <array>
