@@ -5,24 +5,41 @@
 namespace gloam {
 namespace {
 
-void addDrawn(Fingerprint& print, const Texture& texture) {
+// 0 and -0 stand at the same place.
+template <class Vector>
+Vector withoutSignOfZero(const Vector& place) {
+  return place + Vector(0.0f);
+}
+glm::mat4 withoutSignOfZero(glm::mat4 place) {
+  for (int column = 0; column < 4; ++column) place[column] += glm::vec4(0.0f);
+  return place;
+}
+
+Fingerprint drawn(const Texture& texture) {
   const auto& [name, width, height, rgba] = texture;
+  Fingerprint print;
   addAll(print, width, height, rgba);
+  return print;
 }
 
-void addDrawn(Fingerprint& print, const TextureSlot& slot) {
+// By its pixels: files order textures by their use, and leave out what nothing shows.
+void addDrawn(Fingerprint& print, const TextureSlot& slot, const std::vector<Fingerprint>& textures) {
   const auto& [texture, uv_set, wrap_u, wrap_v, nearest, texture_from_uv] = slot;
-  addAll(print, texture, uv_set, wrap_u, wrap_v, nearest, texture_from_uv);
+  add(print, bool(slot));
+  if (!slot) return;
+  const Fingerprint& pixels = textures[std::size_t(texture)];
+  addAll(print, pixels.words[0], pixels.words[1], uv_set, wrap_u, wrap_v, nearest, texture_from_uv);
 }
 
-void addDrawn(Fingerprint& print, const Material& material) {
+void addDrawn(Fingerprint& print, const Material& material, const std::vector<Fingerprint>& textures) {
   const auto& [name, base_color, metallic, roughness, specular, emission, normal_scale, occlusion_strength,
                alpha_mask, alpha_cutoff, double_sided, base_color_map, metallic_roughness_map, normal_map,
                occlusion_map, emission_map] = material;
-  addAll(print, base_color, metallic, roughness, specular, emission, normal_scale, alpha_mask, alpha_cutoff,
-         double_sided);
+  addAll(print, base_color, metallic, roughness, specular, emission, alpha_mask, double_sided);
+  if (normal_map) add(print, normal_scale);
+  if (alpha_mask) add(print, alpha_cutoff);
   for (const TextureSlot* slot : {&base_color_map, &metallic_roughness_map, &normal_map, &emission_map}) {
-    addDrawn(print, *slot);
+    addDrawn(print, *slot, textures);
   }
 }
 
@@ -41,12 +58,13 @@ void addDrawn(Fingerprint& print, const Mesh& mesh, const Material& material) {
 void addDrawn(Fingerprint& print, const Instance& instance) {
   const auto& [mesh, node, world_from_object, deformed_positions, deformed_normals, deformed_tangents] =
       instance;
-  addAll(print, mesh, world_from_object, deformed_positions, deformed_normals);
+  addAll(print, mesh, withoutSignOfZero(world_from_object), deformed_positions, deformed_normals);
 }
 
 void addDrawn(Fingerprint& print, const PosedLight& posed) {
   const auto& [name, type, intensity, range, inner_cone_rad, outer_cone_rad] = posed.light;
-  addAll(print, type, intensity, range, inner_cone_rad, outer_cone_rad, posed.position, posed.direction);
+  addAll(print, type, intensity, range, inner_cone_rad, outer_cone_rad, withoutSignOfZero(posed.position),
+         withoutSignOfZero(posed.direction));
 }
 
 template <class T>
@@ -59,8 +77,11 @@ void addEach(Fingerprint& print, const std::vector<T>& values) {
 
 Fingerprint drawnFingerprint(const Scene& scene, const PosedScene& posed) {
   Fingerprint print;
-  addEach(print, scene.textures);
-  addEach(print, scene.materials);
+  std::vector<Fingerprint> textures;
+  textures.reserve(scene.textures.size());
+  for (const Texture& texture : scene.textures) textures.push_back(drawn(texture));
+  add(print, scene.materials.size());
+  for (const Material& material : scene.materials) addDrawn(print, material, textures);
   add(print, scene.meshes.size());
   for (const Mesh& mesh : scene.meshes) addDrawn(print, mesh, scene.materials[std::size_t(mesh.material)]);
   addEach(print, posed.instances);
@@ -79,7 +100,8 @@ Fingerprint drawnFingerprint(const Environment& environment) {
 Fingerprint drawnFingerprint(const PosedCamera& posed) {
   Fingerprint print;
   const auto& [name, perspective, vertical_fov_rad, aspect, half_height, z_near, z_far] = posed.camera;
-  addAll(print, perspective, vertical_fov_rad, aspect, half_height, z_near, z_far, posed.world_from_view);
+  addAll(print, perspective, vertical_fov_rad, aspect, half_height, z_near, z_far,
+         withoutSignOfZero(posed.world_from_view));
   return print;
 }
 

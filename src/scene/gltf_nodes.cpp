@@ -26,7 +26,8 @@ std::string placeOf(std::size_t node) {
 
 glm::quat unitQuaternion(GltfReading& reading, double x, double y, double z, double w,
                          const std::string& where) {
-  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  double length = std::sqrt(x * x + y * y + z * z + w * w);
+  if (isUnitLength(length)) length = 1.0;
   if (length > 1e-12)
     return {static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
             static_cast<float>(z / length)};

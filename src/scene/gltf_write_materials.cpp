@@ -93,7 +93,7 @@ class MaterialWriter {
   static glm::vec4 clamped(const glm::vec4& c) { return glm::clamp(c, glm::vec4(0.0f), glm::vec4(1.0f)); }
 
   void addEmission(const glm::vec3& emission, Json& material) {
-    const float strength = std::max({emission.x, emission.y, emission.z});
+    const float strength = powerOfTwoFrom(std::max({emission.x, emission.y, emission.z}));
     if (!(strength > 0.0f)) return;
     material["emissiveFactor"] = tidyArray(strength > 1.0f ? emission / strength : emission, 3);
     if (strength <= 1.0f) return;

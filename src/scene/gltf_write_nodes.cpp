@@ -25,7 +25,10 @@ Json quaternion(const glm::quat& q) {
 
 void writeTrs(const glm::vec3& translation, const glm::quat& rotation, const glm::vec3& scale, Json& json) {
   if (translation != glm::vec3(0.0f)) json["translation"] = tidyArray(translation, 3);
-  if (rotation != glm::quat(1, 0, 0, 0)) json["rotation"] = quaternion(glm::normalize(rotation));
+  if (rotation != glm::quat(1, 0, 0, 0)) {
+    const bool unit = isUnitLength(double(glm::length(rotation)));
+    json["rotation"] = quaternion(unit ? rotation : glm::normalize(rotation));
+  }
   if (scale != glm::vec3(1.0f)) json["scale"] = tidyArray(scale, 3);
 }
 
@@ -117,7 +120,8 @@ void writeLights(const Scene& scene, GlbBuilder& builder) {
   if (scene.lights.empty()) return;
   Json lights = Json::array();
   for (const Light& light : scene.lights) {
-    const float intensity = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+    const float intensity =
+        powerOfTwoFrom(std::max({light.intensity.x, light.intensity.y, light.intensity.z}));
     const glm::vec3 color = intensity > 0.0f ? light.intensity / intensity : glm::vec3(1.0f);
     const char* type = light.type == Light::Type::kDirectional ? "directional"
                        : light.type == Light::Type::kSpot      ? "spot"

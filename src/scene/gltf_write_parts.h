@@ -6,11 +6,21 @@
 
 #include <gloam/scene.h>
 
+#include <cmath>
 #include <vector>
 
 #include "scene/glb_builder.h"
 
 namespace gloam {
+
+/// The least that is no smaller than a positive number; any other number itself. A colour divided by it and multiplied again is
+/// the same to the last bit.
+inline float powerOfTwoFrom(float value) {
+  int exponent = 0;
+  if (!(value > 0.0f) || value > 0x1p127f) return value;
+  const float part = std::frexp(value, &exponent);
+  return std::ldexp(1.0f, part == 0.5f ? exponent - 1 : exponent);
+}
 
 /// Textures, samplers, images and materials; materials keep their indices.
 void writeMaterials(const Scene& scene, GlbBuilder& builder);

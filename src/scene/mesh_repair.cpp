@@ -8,6 +8,8 @@
 #include <cmath>
 #include <glm/gtc/epsilon.hpp>
 
+#include "scene/transforms.h"
+
 namespace gloam {
 namespace {
 
@@ -105,6 +107,7 @@ std::size_t repairNormals(Mesh& mesh) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
     const double length = finite(mesh.normals[i]) ? glm::length(glm::dvec3(mesh.normals[i])) : 0.0;
+    if (isUnitLength(length)) continue;
     if (length > 1e-12)
       mesh.normals[i] = glm::vec3(glm::dvec3(mesh.normals[i]) / length);
     else
@@ -141,8 +144,11 @@ std::size_t repairTangents(Mesh& mesh) {
                                  1e-4 * glm::length(glm::dvec3(direction));
     const float sign = tangent.w < 0.0f ? -1.0f : 1.0f;
     if (!good) ++count;
-    tangent = glm::vec4(
-        good ? glm::vec3(glm::normalize(glm::dvec3(direction))) : anyPerpendicular(mesh.normals[i]), sign);
+    const double length = glm::length(glm::dvec3(direction));
+    const glm::vec3 unit = !good                  ? anyPerpendicular(mesh.normals[i])
+                           : isUnitLength(length) ? direction
+                                                  : glm::vec3(glm::dvec3(direction) / length);
+    tangent = glm::vec4(unit, sign);
   }
   return count;
 }
@@ -161,7 +167,7 @@ std::size_t normalizeWeights(Mesh& mesh) {
       sum = 1.0;
     }
     for (std::size_t k = 0; k < n; ++k) {
-      weights[k] = static_cast<float>(weights[k] / sum);
+      if (!isUnitLength(sum)) weights[k] = static_cast<float>(weights[k] / sum);
       if (weights[k] == 0.0f) joints[k] = 0;
     }
   }

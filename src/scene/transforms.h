@@ -5,6 +5,7 @@
 // moves normals.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -18,6 +19,12 @@ struct Trs {
 };
 
 glm::mat4 composeTrs(const Trs& trs);
+
+/// As near to 1 as a unit vector of floats may come. Readers leave such a vector as it is: what a file holds is drawn bit for
+/// bit, and one that is written again stays the same.
+inline bool isUnitLength(double length) {
+  return std::abs(length - 1.0) < 1e-6;
+}
 
 /// The inverse of composeTrs. Nothing where the matrix shears, projects or flattens (no such triple then
 /// gives it back within 1e-4 of its largest column).

@@ -175,6 +175,14 @@ class Results(Compared):
             self.assertIn(says, answer.stderr)
         self.assertFalse((self.shared / "other").exists())
 
+    def test_a_written_scene_is_the_one_that_it_was_made_from(self):
+        self.shared_gloam("scene", BOX.removeprefix("builtin:"), "-o", "written.glb")
+        self.shared_gloam("reference", BOX, *VIEW, "--no-background", "--spp", "1", "--parts", "-o", "builtin.exr")
+        answer = self.given("builtin.exr", scene="written.glb")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertNotIn("cannot be checked", answer.stderr)
+        shutil.rmtree(self.shared / "other")
+
     def test_a_bake_is_the_scene_that_it_was_made_from(self):
         self.shared_gloam("scene", BOX.removeprefix("builtin:"), "-o", "plain.glb")
         self.shared_gloam("reference", "plain.glb", *VIEW, "--no-background", "--spp", "1", "--sh-order", "3", "--parts", "-o", "plain.exr")
