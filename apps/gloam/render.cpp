@@ -4,6 +4,9 @@
 // gloam render: a scene, light, a technique; a picture, frames or a video.
 #include <fmt/core.h>
 #include <gloam/renderer.h>
+#include <renderer/proxy_set.h>
+
+#include <optional>
 
 #include "arguments.h"
 #include "bake_run.h"
@@ -114,12 +117,14 @@ int runRender(RenderChoice choice, Console& console) {
   renderer.setScene(stage.scene);
   renderer.setEnvironment(stage.environment);
   SceneSpheres spheres;
-  if (stage.technique->needs_spheres || choice.layer == kSpheresLayer) {
+  if (stage.technique->needs_spheres || showsSpheres(choice.layer)) {
     const int count =
         stage.technique->needs_spheres ? stage.options.settings.integer("spheres") : SphereOptions{}.count;
     spheres = spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache, console, count);
   }
   if (stage.technique->needs_spheres) renderer.setSpheres(stage.scene, spheres);
+  std::optional<ProxySet> drawn_in;
+  if (choice.layer == kShadowSpheresLayer) drawn_in.emplace(stage.scene, spheres);
 
   DisplayOptions display = displayOf(choice.display);
   Timings timings;
@@ -146,10 +151,10 @@ int runRender(RenderChoice choice, Console& console) {
       if (std::ranges::find(warned, warning) == warned.end()) console.remark(warned.emplace_back(warning));
     }
     holdExposure(display, frame.layers);
-    if (choice.layer == kSpheresLayer) {
-      const Image drawn =
-          spheresPicture(frame.layers, poseSpheres(spheres, stage.scene, posed), camera, display);
-      frame.layers.add(kSpheresLayer, {"R", "G", "B"}, drawn);
+    if (showsSpheres(choice.layer)) {
+      const std::vector<PosedSphere> shown =
+          drawn_in ? drawn_in->drawnIn(posed) : poseSpheres(spheres, stage.scene, posed);
+      frame.layers.add(choice.layer, {"R", "G", "B"}, spheresPicture(frame.layers, shown, camera, display));
     }
     output->write(frame.layers, display);
     console.release();

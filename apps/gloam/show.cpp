@@ -49,9 +49,13 @@ Image objectColors(const LayeredImage& frame) {
 }  // namespace
 
 const std::vector<std::string>& frameLayers() {
-  static const std::vector<std::string> kLayers = {"direct", "indirect", "normal",     "depth",
-                                                   "albedo", "object",   kSpheresLayer};
+  static const std::vector<std::string> kLayers = {"direct", "indirect", "normal",      "depth",
+                                                   "albedo", "object",   kSpheresLayer, kShadowSpheresLayer};
   return kLayers;
+}
+
+bool showsSpheres(const std::string& layer) {
+  return layer == kSpheresLayer || layer == kShadowSpheresLayer;
 }
 
 bool isFrameLayer(const std::string& name) {
@@ -66,7 +70,7 @@ Image lightOf(const LayeredImage& frame, const std::string& layer) {
 Image shownPicture(const LayeredImage& frame, const std::string& layer, const DisplayOptions& display) {
   if (layer == "normal") return normalColors(frame);
   if (layer == "depth") return depthGrey(frame);
-  if (layer == kSpheresLayer) return frame.image(layer, {"R", "G", "B"}, kFrame);
+  if (showsSpheres(layer)) return frame.image(layer, {"R", "G", "B"}, kFrame);
   if (layer == "albedo") return frame.image("albedo", {"R", "G", "B"}, kFrame);
   if (layer == "object") return objectColors(frame);
   return toneMapped(lightOf(frame, layer), display);

@@ -13,9 +13,12 @@ namespace gloam::cli {
 
 /// A layer that render adds on request: ready for a display, as spheresPicture() makes it.
 inline constexpr const char* kSpheresLayer = "spheres";
+/// The same with the spheres drawn in as techniques take them.
+inline constexpr const char* kShadowSpheresLayer = "shadow_spheres";
+bool showsSpheres(const std::string& layer);
 
-/// Layers that every frame has: "direct", "indirect", "normal", "depth", "albedo", "object", and kSpheresLayer. Other names
-/// are images of a technique, which the renderer adds as RenderOptions::show.
+/// Layers that every frame has: "direct", "indirect", "normal", "depth", "albedo", "object", and those two. Other names are
+/// images of a technique, which the renderer adds as RenderOptions::show.
 const std::vector<std::string>& frameLayers();
 bool isFrameLayer(const std::string& name);
 

@@ -110,11 +110,18 @@ ProxySet::ProxySet(const Scene& scene, const SceneSpheres& spheres)
   }
 }
 
+std::vector<PosedSphere> ProxySet::drawnIn(const PosedScene& posed) const {
+  std::vector<PosedSphere> drawn_in = poseSpheres(spheres_, scene_, posed);
+  for (PosedSphere& sphere : drawn_in)
+    sphere.radius *= shares_[std::size_t(sphere.set)][std::size_t(sphere.sphere)];
+  return drawn_in;
+}
+
 std::vector<frame::Proxy> ProxySet::posed(const PosedScene& posed) const {
   std::vector<frame::Proxy> proxies;
-  for (const PosedSphere& sphere : poseSpheres(spheres_, scene_, posed)) {
-    const auto set = std::size_t(sphere.set), i = std::size_t(sphere.sphere);
-    proxies.push_back({sphere.center, sphere.radius * shares_[set][i], albedos_[set][i]});
+  for (const PosedSphere& sphere : drawnIn(posed)) {
+    const glm::vec3 albedo = albedos_[std::size_t(sphere.set)][std::size_t(sphere.sphere)];
+    proxies.push_back({sphere.center, sphere.radius, albedo});
   }
   return proxies;
 }

@@ -15,7 +15,9 @@ class ProxySet {
  public:
   /// Keeps what posing needs, not the scene. Throws Error where the sets belong to another scene.
   ProxySet(const Scene& scene, const SceneSpheres& spheres);
-  /// In the order of poseSpheres. Throws Error where the pose does not fit.
+  /// In the order of poseSpheres, which it gives with radii drawn in. Throws Error where the pose does not fit.
+  std::vector<PosedSphere> drawnIn(const PosedScene& posed) const;
+  /// The same as a frame takes them.
   std::vector<frame::Proxy> posed(const PosedScene& posed) const;
 
  private:

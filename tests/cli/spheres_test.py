@@ -85,6 +85,11 @@ class ShowSpheres(CliTest):
         self.succeed("render", BOX, *SMALL, "-o", "plain.png")
         self.assertNotEqual(self.path("a.png").read_bytes(), self.path("plain.png").read_bytes())
 
+    def test_spheres_as_they_cast_are_smaller(self):
+        for layer in ("spheres", "shadow_spheres"):
+            self.succeed("render", BOX, *SMALL, "--show", layer, "-o", f"{layer}.png")
+        self.assertNotEqual(self.path("spheres.png").read_bytes(), self.path("shadow_spheres.png").read_bytes())
+
     def test_a_damaged_file_in_the_cache_is_made_anew(self):
         self.path("a.glb").write_bytes(glb(*triangle()))
         show = ["render", "a.glb", *SMALL, "--show", "spheres", "-o", "a.png"]
