@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // From coarse receivers to all pixels along surfaces (row PX-8; Sloan, Govindaraju, Nowrouzezahrai, Snyder
-// 2007): weights bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised. Where none of the four fits
+// 2007): weights bilinear * max(0, N_p.N_i)^32 / (eps + |z_p - z_i|), normalised (upsample.glsl). Where none of the four fits
 // (a thin thing between coarse samples), the one of the 4 x 4 around whose normal and depth fit best is taken
 // as it is.
 #version 460
@@ -24,10 +24,12 @@ layout(set = 0, binding = 4) uniform sampler2D coarse;
 layout(set = 0, binding = 5) uniform writeonly image2D full;
 layout(scalar, push_constant) uniform Push { uint divisor; } push;
 
-/// How well a coarse sample stands for the pixel, 0 to 1.
-float fitness(ivec2 place, vec3 normal, float along) {
+/// How well a coarse sample stands for the pixel, 0 to 1; `at`: the pixel's place among them.
+float fitness(ivec2 place, vec2 at, vec3 normal, PixelPlane plane) {
   if (!along_surfaces) return 1.0;
-  return receiverFitness(texelFetch(receiver_normal, place, 0), normal, along);
+  vec4 receiver = texelFetch(receiver_normal, place, 0);
+  receiver.w = evenDepth(frame_view.view, receiver.w);
+  return receiverFitness(receiver, normal, plane, (vec2(place) - at) * float(push.divisor));
 }
 
 void main() {
@@ -39,7 +41,9 @@ void main() {
     return;
   }
   float along = eyeDepth(frame_view.view, d);
-  vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
+  uvec2 packed = texelFetch(normals, pixel, 0).xy;
+  vec3 normal = shadingNormal(packed);
+  PixelPlane plane = pixelPlane(frame_view.view, pixel, along, geometricNormal(packed));
   ivec2 last = textureSize(coarse, 0) - 1;
   vec2 at = receiverPlace(pixel, push.divisor);
   ivec2 base = ivec2(floor(at));
@@ -50,7 +54,7 @@ void main() {
     ivec2 corner = ivec2(i & 1, i >> 1);
     ivec2 place = clamp(base + corner, ivec2(0), last);
     vec2 bilinear = mix(1.0 - f, f, vec2(corner));
-    float weight = max(bilinear.x * bilinear.y, kLeastBilinear) * fitness(place, normal, along);
+    float weight = max(bilinear.x * bilinear.y, kLeastBilinear) * fitness(place, at, normal, plane);
     sum += weight * texelFetch(coarse, place, 0);
     total += weight;
   }
@@ -58,7 +62,7 @@ void main() {
     float best = -1.0;
     for (int i = 0; i < 16; ++i) {
       ivec2 place = clamp(base + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
-      float fit = fitness(place, normal, along);
+      float fit = fitness(place, at, normal, plane);
       if (fit <= best) continue;
       best = fit;
       sum = texelFetch(coarse, place, 0);

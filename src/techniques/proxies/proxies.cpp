@@ -166,8 +166,8 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("alone_table", step.alone_table)
       .read("operator_table", step.operator_table)
       .read("light", step.light)
-      .write("direct_full", received.direct)
-      .write("indirect_full", received.indirect)
+      .readWrite("direct_full", received.direct)
+      .readWrite("indirect_full", received.indirect)
       .push(RepairParams{step.params, tiles.columns, capacity})
       .dispatchIndirect(repairs);
   return received;

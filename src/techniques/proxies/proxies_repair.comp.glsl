@@ -26,8 +26,8 @@ layout(scalar, set = 0, binding = 5) readonly buffer LogTable { vec4 at[]; } log
 layout(scalar, set = 0, binding = 6) readonly buffer OperatorTable { vec4 at[]; } operator_table;
 layout(scalar, set = 0, binding = 10) readonly buffer AloneTable { float at[]; } alone_table;
 layout(scalar, set = 0, binding = 7) uniform LightBlock { ProxyLight row; } light;
-layout(set = 0, binding = 8) uniform writeonly image2D direct_full;
-layout(set = 0, binding = 9) uniform writeonly image2D indirect_full;
+layout(set = 0, binding = 8, rgba16f) uniform image2D direct_full;  // A: how much of it is kept
+layout(set = 0, binding = 9, rgba16f) uniform image2D indirect_full;
 layout(scalar, push_constant) uniform Push { AccumulateParams params; uint columns; uint capacity; } push;
 
 #include "techniques/proxies/proxies_shade.glsl"
@@ -46,6 +46,9 @@ void main() {
   float o[16];
   expOfLog(exponential, sum.log0, sum.log1, sum.log2, sum.log3, o);
   float share = normalise ? overlapShare(o[0], sum.sent.w) : 1.0;
-  imageStore(direct_full, pixel, vec4(irradianceThrough(o, normal), 1.0));
-  imageStore(indirect_full, pixel, vec4(max(sum.sent.rgb, vec3(0.0)) * share, 1.0));
+  vec4 before = imageLoad(direct_full, pixel);
+  vec3 lit = mix(irradianceThrough(o, normal), before.rgb, before.a);
+  vec3 sent = mix(max(sum.sent.rgb, vec3(0.0)) * share, imageLoad(indirect_full, pixel).rgb, before.a);
+  imageStore(direct_full, pixel, vec4(lit, 1.0));
+  imageStore(indirect_full, pixel, vec4(sent, 1.0));
 }

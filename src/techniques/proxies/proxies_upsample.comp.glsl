@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-8: O_p, or irradiance with its change by the normal, and indirect irradiance brought to every pixel along surfaces; direct
-// light is shaded there, at the pixel's own normal. Pixels that none of the four receivers around them fits go on a list (proxies_repair).
+// light is shaded there, at the pixel's own normal. Pixels that the four receivers around them fit badly go on a list (proxies_repair).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -29,9 +29,13 @@ layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; } push
 
 #include "techniques/proxies/proxies_shade.glsl"
 
-/// A receiver's part in a pixel.
-float weightOf(vec4 receiver, vec2 bilinear, vec3 normal, float along) {
-  return max(bilinear.x * bilinear.y, kLeastBilinear) * receiverFitness(receiver, normal, along);
+vec4 receiverAt(ivec2 place) {
+  vec4 receiver = texelFetch(receiver_normal, place, 0);
+  return vec4(receiver.xyz, evenDepth(frame_view.view, receiver.w));
+}
+/// A receiver's part in a pixel that lies `away` pixels from it.
+float weightOf(vec4 receiver, vec2 bilinear, vec3 normal, PixelPlane plane, vec2 away) {
+  return max(bilinear.x * bilinear.y, kLeastBilinear) * receiverFitness(receiver, normal, plane, away);
 }
 
 // Pixels between the same four receivers go through one invocation, which reads these once.
@@ -43,8 +47,7 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy) - 1;  // -1: before the first receiver
   ivec2 p00 = clamp(at, ivec2(0), last), p11 = min(p00 + 1, last);
   ivec2 p10 = ivec2(p11.x, p00.y), p01 = ivec2(p00.x, p11.y);
-  vec4 r00 = texelFetch(receiver_normal, p00, 0), r10 = texelFetch(receiver_normal, p10, 0);
-  vec4 r01 = texelFetch(receiver_normal, p01, 0), r11 = texelFetch(receiver_normal, p11, 0);
+  vec4 r00 = receiverAt(p00), r10 = receiverAt(p10), r01 = receiverAt(p01), r11 = receiverAt(p11);
   vec3 s00 = texelFetch(indirect, p00, 0).rgb, s10 = texelFetch(indirect, p10, 0).rgb;
   vec3 s01 = texelFetch(indirect, p01, 0).rgb, s11 = texelFetch(indirect, p11, 0).rgb;
 #define GLOAM_FIELD(layer)                                                                                  \
@@ -58,16 +61,25 @@ void main() {
     float d = texelFetch(depth, pixel, 0).x;
     bool covered = d > 0.0;
     float along = eyeDepth(frame_view.view, covered ? d : 1.0);
-    vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
-    vec2 f = receiverPlace(pixel, push.divisor) - vec2(at);
+    uvec2 packed = texelFetch(normals, pixel, 0).xy;
+    vec3 normal = shadingNormal(packed);
+    PixelPlane plane = pixelPlane(frame_view.view, pixel, along, geometricNormal(packed));
+    vec2 place = receiverPlace(pixel, push.divisor), f = place - vec2(at);
+    vec2 near = (vec2(p00) - place) * float(divisor), far = (vec2(p11) - place) * float(divisor);
     f = mix(f, vec2(0.0), lessThan(at, ivec2(0)));
-    vec4 w = vec4(weightOf(r00, 1.0 - f, normal, along), weightOf(r10, vec2(f.x, 1.0 - f.y), normal, along),
-                  weightOf(r01, vec2(1.0 - f.x, f.y), normal, along), weightOf(r11, f, normal, along));
+    vec4 w = vec4(weightOf(r00, 1.0 - f, normal, plane, near),
+                  weightOf(r10, vec2(f.x, 1.0 - f.y), normal, plane, vec2(far.x, near.y)),
+                  weightOf(r01, vec2(1.0 - f.x, f.y), normal, plane, vec2(near.x, far.y)),
+                  weightOf(r11, f, normal, plane, far));
     float total = w.x + w.y + w.z + w.w;
-    if (inside && covered && total < kPoorFit) {
-      uint place = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
-      if (place < push.capacity) repairs.at[place] = uint(pixel.y) << 16 | uint(pixel.x);
-      if (place > 0u && place < push.capacity && place % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
+    float kept = 1.0;  // of what receivers say
+    if (inside && covered && total < kGoodFit) {
+      uint free = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
+      if (free < push.capacity) {
+        repairs.at[free] = uint(pixel.y) << 16 | uint(pixel.x);
+        kept = smoothstep(kScratchFit, kGoodFit, total);
+      }
+      if (free > 0u && free < push.capacity && free % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
     }
     w = total > 1e-20 ? w / total : vec4(0.25);
     vec4 a = f0 * w, b = f1 * w, c = f2 * w;
@@ -83,7 +95,7 @@ void main() {
     vec3 sent = w.x * s00 + w.y * s10 + w.z * s01 + w.w * s11;
     float shown = covered ? 1.0 : 0.0;
     if (inside) {
-      imageStore(direct_full, pixel, vec4(lit * shown, 1.0));
+      imageStore(direct_full, pixel, vec4(lit * shown, kept));
       imageStore(indirect_full, pixel, vec4(sent * shown, 1.0));
     }
   }
