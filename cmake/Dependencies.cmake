@@ -31,6 +31,14 @@ endif()
 # Optional: OBJ, PLY, OFF, FBX and 3DS come through assimp where it is installed.
 find_package(assimp QUIET)
 
+# Optional: .vdb volumes come through OpenVDB where it is installed, with the Boost headers that its own include.
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
+find_path(OPENVDB_BOOST_INCLUDE_DIR boost/numeric/conversion/conversion_traits.hpp)
+find_library(OPENVDB_LIBRARY openvdb)
+if(NOT OPENVDB_INCLUDE_DIR OR NOT OPENVDB_BOOST_INCLUDE_DIR)
+  set(OPENVDB_LIBRARY "")
+endif()
+
 if(GLOAM_BUILD_TESTS)
   find_package(GTest REQUIRED)
 endif()

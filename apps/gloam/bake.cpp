@@ -11,6 +11,7 @@
 #include "bake_pca.h"
 #include "bake_run.h"
 #include "bake_surfaces.h"
+#include "bake_volume.h"
 #include "json.h"
 #include "output.h"
 #include "scene_inputs.h"
@@ -28,6 +29,7 @@ struct BakeChoice {
   SurfaceChoice surfaces;
   PcaChoice pca;
   NeighbourhoodChoice neighbourhood;
+  VolumeChoice volumes;
   std::string output, kind = "di", glossy = "auto";
   bool half_float = false, resume = true, estimate_only = false;
   std::vector<const CLI::Option*> of_rays, of_bounces, of_gloss;  ///< options that not all bakes use
@@ -104,7 +106,8 @@ Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& 
 }
 
 void printResult(const BakeChoice& choice, const BakeReport& report, const TessellateReport& split,
-                 const Json& neighbourhoods, const CompressReport& compressed, Console& console) {
+                 const Json& neighbourhoods, const Json& volumes, const CompressReport& compressed,
+                 Console& console) {
   const double rate = report.first_pass_s > 0.0 ? double(report.rays) / report.first_pass_s : 0.0;
   std::error_code ignored;
   const auto size = double(fs::file_size(choice.output, ignored));
@@ -143,6 +146,7 @@ void printResult(const BakeChoice& choice, const BakeReport& report, const Tesse
                 {"texels", report.texels},
                 {"tessellated", tessellateJson(choice.surfaces, split)},
                 {"neighbourhoods", neighbourhoods},
+                {"volumes", volumes},
                 {"glossy_points", report.glossy_points},
                 {"cheap_error", report.glossy_points > 0 ? Json(report.cheap_error) : Json(nullptr)},
                 {"file_bytes", size}}));
@@ -166,9 +170,11 @@ int runBake(BakeChoice choice, Console& console) {
   if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
   const Json grids =
       estimateNeighbourhoods(scene, carriers, choice.neighbourhood, console, choice.estimate_only);
+  const Json clouds = estimateVolumes(scene, choice.volumes, choice.options, console, choice.estimate_only);
   if (choice.estimate_only) {
     Json json = estimateJson(estimate);
     json["neighbourhoods"] = grids;
+    json["volumes"] = clouds;
     if (console.json) console.print(jsonText(json));
     return kDone;
   }
@@ -176,6 +182,8 @@ int runBake(BakeChoice choice, Console& console) {
   choice.options.checkpoint = choice.output + ".checkpoint";
   choice.neighbourhood.options.checkpoint = choice.options.checkpoint;
   console.remark(estimateText(estimate));
+  Json volumes;
+  scene = bakeVolumesAsChosen(std::move(scene), choice.volumes, console, volumes);
   BakeReport report;
   Scene baked = bakeWithCheckpoint(scene, choice, console, report);
   console.endProgress();
@@ -186,7 +194,7 @@ int runBake(BakeChoice choice, Console& console) {
   writeGlb(baked, choice.output, {.half_float = choice.half_float});
   remarkLostLight(baked, console);
   for (const std::string& warning : report.warnings) console.remark(warning);
-  printResult(choice, report, split, neighbourhoods, compressed, console);
+  printResult(choice, report, split, neighbourhoods, volumes, compressed, console);
   return kDone;
 }
 
@@ -244,6 +252,7 @@ std::function<int()> declareBake(CLI::App& app, Console& console) {
   addLimitOptions(app, choice->options, choice->limits);
   addSurfaceOptions(app, choice->options, choice->surfaces);
   addNeighbourhoodOptions(app, choice->neighbourhood);
+  addVolumeOptions(app, choice->volumes);
   addPcaOption(app, choice->pca);
   app.add_flag("--half", choice->half_float, "store transfer as 16-bit floats: half the size")
       ->group("Output");
@@ -269,6 +278,7 @@ const Verb kBakeVerb = {
     "gloam bake builtin:gallery --texels-per-metre 16 -o gallery.glb | light kept in lightmaps\n"
     "gloam bake room.glb --tessellate 0.05 -o room_prt.glb | more vertices where shadows need them\n"
     "gloam bake builtin:passing --neighbourhood auto -o passing.glb | what moves shadows what passes it\n"
+    "gloam bake builtin:cloud --scatterings 32 -o cloud.glb | smoke that light scatters in\n"
     "gloam bake statue.glb --estimate | how much memory and how large a file\n"
     "gloam bake spheres statue.glb | fits spheres instead, for what moves: gloam bake spheres --help\n"
     "gloam bake statue.glb -o statue_prt.glb | after Ctrl-C the same command goes on where it stopped\n",

@@ -3,6 +3,7 @@
 #include "bake_run.h"
 
 #include <fmt/core.h>
+#include <gloam/volume.h>
 #include <scene/animation.h>
 #include <techniques/prt/prt_bake_state.h>
 
@@ -147,7 +148,13 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
   remarkMotion(scene, console);
   console.release();
   BakeReport report;
-  Scene baked = bakeResumed(scene, options, console, report);
+  VolumeReport clouds;
+  const bool cloudy = carriesUnbakedVolumes(scene);
+  Scene baked = bakeResumed(cloudy ? bakeVolumes(scene, {.order = options.order, .time_s = options.time_s},
+                                                 console.progress(), &clouds)
+                                   : scene,
+                            options, console, report);
+  report.bounces_s += clouds.seconds;
   *time = timeOf(report);
   console.endProgress();
   baked.environment = scene.environment;

@@ -3,6 +3,7 @@
 #include "compare_stage.h"
 
 #include <fmt/core.h>
+#include <gloam/volume.h>
 
 #include <algorithm>
 #include <chrono>
@@ -38,6 +39,11 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
                                  std::optional<int> reference_bounces, Console& console) {
   CompareStage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
+  if (carriesVolumes(stage.scene))
+    throw Error(choice.scene.name,
+                fmt::format("holds volumes ({}), which the path tracer does not know: there is "
+                            "nothing to compare with",
+                            volumeNames(stage.scene)));
   stage.environment = chooseEnvironment(stage.scene, choice.light, console, choice.view.time_s);
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.camera = chooseCamera(stage.posed, choice.view, console);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 #include <gloam/scene.h>
+#include <gloam/volume.h>
 
 #include <cstring>
 #include <fstream>
@@ -118,6 +119,23 @@ Json transferJson(const Scene& scene) {
           {"bytes_in_memory", floats * sizeof(float)}};
 }
 
+Json volumesJson(const Scene& scene) {
+  Json json = Json::array();
+  for (const Node& node : scene.nodes) {
+    if (!node.volume) continue;
+    const Volume& volume = *node.volume;
+    Json transfer = nullptr;
+    if (volume.transfer)
+      transfer = {{"order", volume.transfer->order}, {"scatterings", volume.transfer->bounces + 1}};
+    json.push_back({{"name", volume.name},
+                    {"size", fmt::format("{}x{}x{}", volume.size.x, volume.size.y, volume.size.z)},
+                    {"albedo", shortest(volume.albedo)},
+                    {"asymmetry", shortest(volume.asymmetry)},
+                    {"transfer", transfer}});
+  }
+  return json;
+}
+
 Json materialsJson(const Scene& scene) {
   Json json = Json::array();
   for (const Material& material : scene.materials) {
@@ -164,6 +182,7 @@ Json describeScene(const std::string& name, Console& console) {
                {"environment", scene.environment.empty() ? Json(nullptr) : Json(scene.environment.name)},
                {"extensions", extensionsJson(name)},
                {"transfer", transferJson(scene)},
+               {"volumes", volumesJson(scene)},
                {"warnings", scene.warnings}};
   return json;
 }

@@ -4,6 +4,7 @@
 // gloam reference: the truth about a scene, by paths.
 #include <fmt/core.h>
 #include <gloam/reference.h>
+#include <gloam/volume.h>
 
 #include <cmath>
 
@@ -101,6 +102,9 @@ ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, 
 Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame>& frames, Console& console) {
   Stage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
+  if (carriesVolumes(stage.scene))
+    console.remark(
+        fmt::format("{} left out: paths know surfaces alone, no volumes", volumeNames(stage.scene)));
   stage.light = choice.light;
   stage.environment = chooseBaseEnvironment(stage.scene, choice.light, console);
   stage.environment_name = environmentAt(stage.environment, choice.light, frames.front().time_s).name;

@@ -222,7 +222,11 @@ std::string sceneStem(const std::string& name) {
   if (name.starts_with(kBuiltin)) {  // "builtin:spheres?detail=2"
     return name.substr(kBuiltin.size(), name.find('?') - kBuiltin.size());
   }
-  const std::string stem = std::filesystem::path(name).stem().string();
+  // "cloud.raw?size=64x64x64"; other names may hold question marks
+  const std::size_t end = name.find(".raw?") != std::string::npos || name.find(".vdb?") != std::string::npos
+                              ? name.find('?')
+                              : std::string::npos;
+  const std::string stem = std::filesystem::path(name.substr(0, end)).stem().string();
   return stem.empty() ? "scene" : stem;
 }
 

@@ -3,6 +3,7 @@
 #include "technique_choice.h"
 
 #include <fmt/core.h>
+#include <gloam/volume.h>
 
 namespace gloam::cli {
 namespace {
@@ -48,10 +49,10 @@ void addTechniqueOptions(CLI::App& app, TechniqueChoice& choice) {
     }
     choice.name = text;
   };
-  app.add_option_function<std::string>(
-         "--technique", setName,
-         fmt::format("way of lighting: {}; by default prt where the scene carries transfer, else irradiance",
-                     listed(names)))
+  app.add_option_function<std::string>("--technique", setName,
+                                       fmt::format("way of lighting: {}; by default prt where the scene "
+                                                   "carries transfer or a volume, else irradiance",
+                                                   listed(names)))
       ->type_name("TECHNIQUE");
   for (const TechniqueInfo& info : techniques()) {
     for (const Option& option : info.options) addTechniqueOption(app, choice, info, option);
@@ -60,7 +61,7 @@ void addTechniqueOptions(CLI::App& app, TechniqueChoice& choice) {
 
 const TechniqueInfo& chooseTechnique(const TechniqueChoice& choice, const Scene& scene) {
   if (!choice.name.empty()) return technique(choice.name);
-  return technique(carriesTransfer(scene) ? "prt" : "irradiance");
+  return technique(carriesTransfer(scene) || carriesVolumes(scene) ? "prt" : "irradiance");
 }
 
 Settings settingsFor(const TechniqueInfo& info, const TechniqueChoice& choice) {

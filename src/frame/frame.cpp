@@ -5,6 +5,7 @@
 #include "frame/frame.h"
 
 #include "frame/view.h"
+#include "frame/volumes.h"
 
 namespace gloam::frame {
 
@@ -52,6 +53,7 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
   const gpu::ImageRef local_light =
       lighting.has_local_direct ? gpu::ImageRef() : recordLocalLight(graph, inputs);
   const Shaded shaded = recordShade(graph, inputs, lighting, local_light, options.background);
+  recordVolumes(graph, inputs, lighting, view.eye, shaded);
   return recordResolve(graph, inputs, shaded, options.layers);
 }
 

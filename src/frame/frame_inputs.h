@@ -22,8 +22,8 @@ struct FrameInputs {
   Receivers& receivers;  ///< asks for what it needs: receivers.at(4)
   const ShadowMaps& shadow_maps;
   const EnvironmentLight& environment;
-  gpu::BufferRef view;  ///< FrameView
-  Warnings& warnings;   ///< one-line remarks for whoever renders
+  gpu::BufferRef view;                  ///< FrameView
+  Warnings& warnings;                   ///< one-line remarks for whoever renders
   std::span<const Proxy> proxies = {};  ///< spheres in place of what moves; empty unless someone made them
 };
 
@@ -34,7 +34,7 @@ enum class Path : std::uint8_t { kDirect, kIndirect };
 struct Irradiance {
   gpu::ImageRef image;  ///< RGB, floats or halves, of the size of receivers.at(divisor)
   Path path = Path::kDirect;
-  int divisor = 1;  ///< below full size it is upsampled along surfaces (PX-8)
+  int divisor = 1;             ///< below full size it is upsampled along surfaces (PX-8)
   bool along_surfaces = true;  ///< false: plainly bilinear
 };
 
@@ -45,10 +45,20 @@ struct Gloss {
   Path path = Path::kDirect;
 };
 
+/// What a volume sends toward the eye, voxel by voxel.
+struct VolumeLight {
+  gpu::ImageRef
+      direct;  ///< 3D; RGB: radiance times albedo, of light scattered once; A: extinction, 1 / length of the node
+  gpu::ImageRef indirect;  ///< 3D, of the same size; RGB: of light scattered more often
+  glm::mat4 world_from_node{1.0f};
+  glm::vec3 bounds_min{0.0f}, bounds_max{1.0f};  ///< of the box that the images fill, in the node
+};
+
 /// What a technique hands on, never final colour. Terms of different light paths add up.
 struct Lighting {
   std::vector<Irradiance> irradiance;
   std::vector<Gloss> gloss;
+  std::vector<VolumeLight> volumes;
   /// True: the technique's terms contain the direct light of lamps, else frame/ shades it with its shadow
   /// maps.
   bool has_local_direct = false;

@@ -111,6 +111,14 @@ GLOAM_SHARED_CONST float kSharpestGloss = 10.0f;
 GLOAM_SHARED_CONST int kGlossSize = 32;
 GLOAM_SHARED_CONST int kGlossSlices = 8;
 
+/// A volume in its box, whose texture coordinates are 0 to 1.
+struct VolumeRow {
+  mat4x3 box_from_world;
+  vec3 side;   // of the box, in the node: lengths that extinction counts by
+  float step;  // of the march, in the node
+};
+GLOAM_SHARED_SIZE(VolumeRow, 64)
+
 /// How to look up the environment's picture.
 struct EnvironmentRow {
   float cos_rotation;

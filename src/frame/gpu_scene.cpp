@@ -118,7 +118,8 @@ MaterialRow rowOf(const Material& material) {
 
 }  // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const Scene& scene) : device_(device), textures_(device, scene), carriers_(scene) {
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene)
+    : device_(device), textures_(device, scene), carriers_(scene), volume_places_(scene) {
   VertexArrays arrays;
   std::vector<MeshRow> rows;
   for (const Mesh& mesh : scene.meshes) {

@@ -10,6 +10,7 @@
 #include "frame/frame_shared.h"
 #include "frame/textures.h"
 #include "gpu/frame_graph.h"
+#include "scene/volume_places.h"
 
 namespace gloam::frame {
 
@@ -50,6 +51,8 @@ class GpuScene {
   const std::vector<DrawRange>& draws() const { return draws_; }
   /// Nodes that carry neighbourhood transfer, where they were at the last pose().
   const Carriers& carriers() const { return carriers_; }
+  /// Of the last pose().
+  const std::vector<PlacedVolume>& volumes() const { return volumes_; }
   /// The instance that stands at a place of the order of drawing.
   std::uint32_t instanceAt(std::uint32_t place) const { return order_[place]; }
   bool deformed(std::size_t instance) const { return rows_[instance].first_vertex >= static_vertices_; }
@@ -118,6 +121,8 @@ class GpuScene {
   gpu::Device& device_;
   Textures textures_;
   Carriers carriers_;
+  VolumePlaces volume_places_;
+  std::vector<PlacedVolume> volumes_;
   std::vector<GpuMesh> meshes_;
   gpu::Buffer positions_, normals_, tangents_, uvs_, colors_, indices_, mesh_rows_, material_rows_;
   std::uint32_t static_vertices_ = 0;

@@ -186,6 +186,7 @@ void GpuScene::pose(gpu::FrameGraph& graph, const PosedScene& posed) {
   turn_ = has_previous_ ? 1 - turn_ : 0;
   makeRows(posed);
   carriers_.pose(posed);
+  volumes_ = volume_places_.at(posed.time_s);
   updateDraws(posed);
   copyDeformed(graph, posed);
   has_previous_ = true;

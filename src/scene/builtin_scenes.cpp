@@ -41,6 +41,7 @@ const std::vector<Entry>& entries() {
        makePassing},
       {{"ring", "a turning ring of gold on a sheet that moves under it (8 s, loops; wave): caustics"},
        makeRing},
+      {{"cloud", "a cloud over a plain (density, albedo, g): smoke that light scatters in"}, makeCloud},
       {{"mobile", "a turning knot among bouncing balls (8 s, loops): rigid animation"}, makeMobile},
   };
   return all;

@@ -32,6 +32,7 @@ constexpr std::string_view kRead[] = {"KHR_lights_punctual",
                                       "EXT_lights_image_based",
                                       "GLOAM_precomputed_transfer",
                                       "GLOAM_neighbourhood_transfer",
+                                      "GLOAM_volume",
                                       "KHR_materials_variants"};  // the default variant is shown
 /// They say nothing about the picture.
 constexpr std::string_view kSilent[] = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_texture_basisu"};

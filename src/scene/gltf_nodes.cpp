@@ -13,6 +13,7 @@
 #include "image/limits.h"
 #include "scene/gltf_neighbourhood.h"
 #include "scene/gltf_parts.h"
+#include "scene/gltf_volume.h"
 #include "scene/transforms.h"
 
 namespace gloam {
@@ -222,6 +223,7 @@ void hideNodes(GltfReading& reading) {
   for (std::size_t at = 0; at < open.size() && at < 4 * nodes.size(); ++at) {
     Node& node = nodes[open[at]];
     node.meshes.clear();
+    node.volume = nullptr;
     node.light = kNone;
     for (const int child : node.children) open.push_back(static_cast<std::size_t>(child));
   }
@@ -248,6 +250,8 @@ void readNodes(GltfReading& reading) {
     if (const Json* neighbourhood = GltfDocument::extension(json, kNeighbourhoodExtension))
       node.neighbourhood = readNeighbourhood(reading.accessors, *neighbourhood,
                                              placeOf(i) + ".extensions." + kNeighbourhoodExtension);
+    if (const Json* volume = GltfDocument::extension(json, kVolumeExtension))
+      node.volume = readVolume(reading.accessors, *volume, placeOf(i) + ".extensions." + kVolumeExtension);
   }
   linkChildren(reading);
   chooseRoots(reading);

@@ -248,6 +248,7 @@ constexpr Field kNodeExtensions[] = {
     {"EXT_mesh_gpu_instancing", Kind::kObject, "instancing"},
     {"KHR_node_visibility", Kind::kObject, "visibility"},
     {"GLOAM_neighbourhood_transfer", Kind::kAny},
+    {"GLOAM_volume", Kind::kAny},
 };
 constexpr Field kNodeLight[] = {{"light", Kind::kIndex, "lights", kRequired}};
 constexpr Field kInstancing[] = {{"attributes", Kind::kIndexMap, "accessors", kRequired}};

@@ -3,6 +3,7 @@
 //
 // A Scene as a .glb, from start to end: the page to begin with.
 #include "scene/gltf_neighbourhood.h"
+#include "scene/gltf_volume.h"
 #include "scene/gltf_write_parts.h"
 
 namespace gloam {
@@ -28,6 +29,7 @@ void writeGlb(const Scene& scene, const std::filesystem::path& path, const Write
   writeLights(scene, builder);
   const std::vector<int> roots = writeNodes(scene, groups, path.string(), builder);
   writeNeighbourhoods(scene, options.half_float, builder);
+  writeVolumes(scene, options.half_float, builder);
   writeSkins(scene, builder);
   writeAnimations(scene, builder);
   nlohmann::json shown = nlohmann::json::object();

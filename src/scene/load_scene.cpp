@@ -14,6 +14,7 @@
 #include "scene/builtin_scenes.h"
 #include "scene/gltf_read.h"
 #include "scene/scene_check.h"
+#include "scene/volume_files.h"
 
 namespace gloam {
 namespace {
@@ -43,9 +44,10 @@ Scene readFile(const std::filesystem::path& path, const Progress& progress) {
   const std::string extension = lowerExtension(path);
   if (gltf || extension == ".gltf" || extension == ".glb") return readGltf(path, progress);
   if (assimpReads(extension)) return readWithAssimp(path, progress);
-  throw Error(path.string(),
-              fmt::format("not a scene that is read: .gltf, .glb, .obj, .ply, .off, .fbx and .3ds are{}",
-                          extension == ".hdr" || extension == ".exr" ? "; pass it as the environment" : ""));
+  throw Error(
+      path.string(),
+      fmt::format("not a scene that is read: .gltf, .glb, .obj, .ply, .off, .fbx, .3ds, .raw and .vdb are{}",
+                  extension == ".hdr" || extension == ".exr" ? "; pass it as the environment" : ""));
 }
 
 /// Messages quote files, and files may quote anything.
@@ -63,7 +65,8 @@ Scene loadScene(const std::string& path_or_name, const Progress& progress) {
   if (path_or_name.starts_with(kBuiltin)) return makeBuiltinScene(path_or_name.substr(kBuiltin.size()));
   const std::filesystem::path path(path_or_name);
   try {
-    Scene scene = readFile(path, progress);
+    Scene scene =
+        namesVolumeFile(path_or_name) ? readVolumeScene(path_or_name, progress) : readFile(path, progress);
     checkScene(scene, path_or_name);
     if (scene.name.empty()) scene.name = path.stem().string();
     for (std::string& line : scene.warnings) line = cleaned(std::move(line));

@@ -77,6 +77,7 @@ Scene makeColumns(const Detail& detail, NamedValues& values);         // builtin
 Scene makeGallery(const Detail& detail, NamedValues& values);         // builtin_gallery.cpp
 Scene makeLanterns(const Detail& detail, NamedValues& values);        // builtin_lanterns.cpp
 Scene makeTextured(const Detail& detail, NamedValues& values);        // builtin_textured.cpp
+Scene makeCloud(const Detail& detail, NamedValues& values);           // builtin_cloud.cpp
 Scene makePassing(const Detail& detail, NamedValues& values);         // builtin_neighbours.cpp
 Scene makeRing(const Detail& detail, NamedValues& values);            //
 Scene makeWalker(const Detail& detail, NamedValues& values);          // builtin_walker.cpp

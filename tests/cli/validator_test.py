@@ -57,7 +57,10 @@ class Validator(CliTest):
                 "--neighbourhood", "ring"]
         self.succeed(*near, "-o", "near.glb")
         self.succeed(*near, "--half", "-o", "near_half.glb")
-        self.validate([self.path(f"{name}.glb") for name in ("texels", "split", "di", "ds", "gi", "gs", "near", "near_half")])
+        cloud = ["bake", "builtin:cloud?detail=0.25", "--directions", "256", "--order", "3", "--bounces", "1", "--scatterings", "2"]
+        self.succeed(*cloud, "-o", "cloud.glb")
+        self.succeed(*cloud, "--half", "-o", "cloud_half.glb")
+        self.validate([self.path(f"{name}.glb") for name in ("cloud", "cloud_half", "texels", "split", "di", "ds", "gi", "gs", "near", "near_half")])
 
     def test_what_the_writers_own_tests_write(self):
         scene_test = pathlib.Path(os.environ["SCENE_TEST"])

@@ -172,6 +172,15 @@ const NeighbourhoodBuffers& Prt::neighbourhoodFor(const frame::FrameInputs& inpu
   return *neighbourhood_;
 }
 
+const VolumeBuffers& Prt::volumesFor(const frame::FrameInputs& inputs, int order) {
+  const std::uint64_t revision = inputs.scene.layoutRevision();
+  if (volumes_ && volumes_revision_ == revision && volumes_->orderAskedFor() == order) return *volumes_;
+  volumes_.reset();
+  volumes_.emplace(device_, inputs.scene, order, chunk_bytes_);
+  volumes_revision_ = revision;
+  return *volumes_;
+}
+
 const GlossyBuffers& Prt::glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options) {
   const std::uint64_t revision = inputs.scene.layoutRevision();
   if (glossy_ && glossy_revision_ == revision && glossy_->options() == options) return *glossy_;
@@ -289,6 +298,12 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
     lighting.irradiance.push_back({.image = indirect, .path = frame::Path::kIndirect});
   addGloss(graph, inputs, settings, lighting);
   if (neighbourhood) neighbourhood->lightPixels(lighting, settings.flag("indirect"));
+  if (!inputs.scene.volumes().empty()) {
+    const std::string& window = settings.choice("window");
+    lighting.volumes = volumesFor(inputs, settings.integer("order"))
+                           .record(graph, inputs, window == "auto" ? frame::Window::kAuto : windowOf(window),
+                                   settings.flag("indirect"));
+  }
   return lighting;
 }
 

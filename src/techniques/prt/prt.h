@@ -11,6 +11,7 @@
 #include "techniques/prt/prt_local.h"
 #include "techniques/prt/prt_neighbourhood.h"
 #include "techniques/prt/prt_transfer.h"
+#include "techniques/prt/prt_volume.h"
 #include "techniques/technique.h"
 
 namespace gloam::prt {
@@ -29,6 +30,7 @@ class Prt : public Technique {
  private:
   const TransferBuffers& transferFor(const frame::FrameInputs& inputs, const TransferOptions& options);
   const GlossyBuffers& glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options);
+  const VolumeBuffers& volumesFor(const frame::FrameInputs& inputs, int order);
   const NeighbourhoodBuffers& neighbourhoodFor(const frame::FrameInputs& inputs, int order);
   gpu::BufferRef lightVerticesLocally(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                       const TransferBuffers& transfer, const Settings& settings);
@@ -46,6 +48,8 @@ class Prt : public Technique {
   frame::ProbeTables probe_tables_;
   std::optional<NeighbourhoodBuffers> neighbourhood_;
   std::uint64_t neighbourhood_revision_ = 0;
+  std::optional<VolumeBuffers> volumes_;
+  std::uint64_t volumes_revision_ = 0;
 };
 
 }  // namespace gloam::prt
