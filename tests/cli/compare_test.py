@@ -160,7 +160,7 @@ class Results(Compared):
 
     def test_a_reference_of_something_else_is_refused(self):
         for says, case in {
-                "another scene": {"scene": "builtin:cornell?detail=0.25"},
+                "another scene": {"scene": "builtin:cornell?detail=0.3"},
                 "another light": {"light": ("--env", "sky:noon", "--env-rotation", "90")},
                 "--env-intensity": {"light": ("--env", "sky:noon", "--env-intensity", "2")},
                 "--env": {"light": ("--env", "sky:overcast")}}.items():
