@@ -95,8 +95,8 @@ constexpr Row kSphereSets[] = {
      "spheres: PoseSpheres, Spheres.OpenAndInsideOut"},
     {"SS-3",
      "A hierarchy of spheres, cut for each cluster of receivers, blended so that shading stays continuous",
-     kPartly, "use by a technique; ratio vectors between cuts", "gloam bake spheres builtin:walker -k 40",
-     "spheres: SphereTree"},
+     kPartly, "use by a technique", "gloam bake spheres builtin:walker -k 40",
+     "spheres: SphereTree, ClusterLog"},
 };
 
 constexpr Row kProxies[] = {
@@ -127,7 +127,7 @@ constexpr Row kProxies[] = {
      "SplatsAndTilesShowTheSamePicture"},
     {"PX-8", "Upsampling that respects depth and normals; pixels that no coarse sample fits are shaded anew",
      kYes, "", "gloam render builtin:walker --technique proxies --proxies.divisor 8",
-     "proxies: CoarseReceiversShowTheSamePicture"},
+     "proxies: CoarseReceiversShowTheSamePicture, SlantedGroundIsUpsampledAsSmoothlyAsAPicture"},
     {"PX-9", "Each proxy with its own albedo; moving and skinned casters; ground and walls that only receive",
      kYes, "", "gloam render builtin:walker --technique proxies --animate 0:4 --turn-sky 360 -o walk.mp4",
      "renderer: ProxySet, ShadowShares, SpheresScene"},

@@ -291,6 +291,47 @@ TEST(Proxies, ManyProxiesAndTheSamePictureTwice) {
   for (const float value : first.indirect) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
 }
 
+/// Direct light of all pixels, at full size whatever the receivers' is.
+std::vector<float> lightOfPixels(const Scene& scene, const PosedCamera& camera,
+                                 const std::vector<frame::Proxy>& proxies, const Values& values) {
+  frame::TestFrame frame(scene);
+  Proxies technique(gpu::testDevice());
+  Settings settings(info().options);
+  for (const auto& [name, value] : values) settings.set(name, value);
+  const frame::FrameImages images =
+      frame.draw(pose(scene, 0.0f), camera, {.width = 128, .height = 128, .proxies = proxies},
+                 [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                   return technique.record(graph, inputs, settings);
+                 });
+  return images.direct.image().downloadFloats();
+}
+
+double relativeError(const std::vector<float>& got, const std::vector<float>& want) {
+  double wrong = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    if (i % 4 == 3) continue;
+    wrong += double(got[i] - want[i]) * double(got[i] - want[i]), all += double(want[i]) * double(want[i]);
+  }
+  return std::sqrt(wrong / all);
+}
+
+// On one plane, however slanted, all four receivers count: the same picture as by bilinear weights, no bands.
+TEST(Proxies, SlantedGroundIsUpsampledAsSmoothlyAsAPicture) {
+  const Scene scene = planeScene("preetham?elevation=40");
+  const std::vector<frame::Proxy> proxies = {{{0.0f, 0.5f, 0.5f}, 0.4f, glm::vec3(0.5f)}};
+  PosedCamera parallel = frame::cameraAt({0, 0.8f, 3}, {0, 0, 1});
+  parallel.camera.perspective = false;
+  parallel.camera.half_height = 0.6f;
+  for (const PosedCamera& camera : {frame::cameraAt({0, 0.8f, 3}, {0, 0, 1}, 30), parallel}) {
+    for (const char* divisor : {"4", "8"}) {
+      const Values plain = {{"divisor", divisor}, {"upsample", "bilinear"}},
+                   along = {{"divisor", divisor}, {"upsample", "shaded"}};
+      const std::vector<float> want = lightOfPixels(scene, camera, proxies, plain);
+      EXPECT_LT(relativeError(lightOfPixels(scene, camera, proxies, along), want), 5e-4) << divisor;
+    }
+  }
+}
+
 // Coarse receivers brought to pixels agree with a receiver a pixel, silhouettes and contact included.
 TEST(Proxies, CoarseReceiversShowTheSamePicture) {
   SceneBuilder builder("balls");
@@ -302,27 +343,10 @@ TEST(Proxies, CoarseReceiversShowTheSamePicture) {
   const Scene scene = builder.finish();
   const PosedCamera camera = frame::cameraAt({3, 4, 7}, {0, 1, 0}, 35);
   const std::vector<frame::Proxy> proxies = {{{0, 1, 0}, 1.0f, glm::vec3(0.6f)}};
-  const auto colors = [&](const Values& values) {
-    frame::TestFrame frame(scene);
-    Proxies technique(gpu::testDevice());
-    Settings settings(info().options);
-    for (const auto& [name, value] : values) settings.set(name, value);
-    const frame::FrameImages images =
-        frame.draw(pose(scene, 0.0f), camera, {.width = 128, .height = 128, .proxies = proxies},
-                   [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
-                     return technique.record(graph, inputs, settings);
-                   });
-    return images.direct.image().downloadFloats();
-  };
+  const auto colors = [&](const Values& values) { return lightOfPixels(scene, camera, proxies, values); };
   const std::vector<float> want = colors({{"divisor", "1"}});
   const auto error = [&](const char* divisor, const char* way) {
-    const std::vector<float> got = colors({{"divisor", divisor}, {"upsample", way}});
-    double wrong = 0.0, all = 0.0;
-    for (std::size_t i = 0; i < got.size(); ++i) {
-      if (i % 4 == 3) continue;
-      wrong += double(got[i] - want[i]) * double(got[i] - want[i]), all += double(want[i]) * double(want[i]);
-    }
-    return std::sqrt(wrong / all);
+    return relativeError(colors({{"divisor", divisor}, {"upsample", way}}), want);
   };
   const double field = error("4", "field"), shaded = error("4", "shaded"), bilinear = error("4", "bilinear");
   EXPECT_LT(field, 0.01);
