@@ -16,6 +16,8 @@ namespace {
 
 // Texture samples along each side of a footprint for the albedo and normal layers.
 constexpr int kFootprintSamples = 4;
+// Places along each side of the picture from which is learnt what the camera sees.
+constexpr int kLooks = 16;
 
 struct PlaneFrame {
   glm::vec3 edge_u, edge_v, normal;
@@ -106,7 +108,17 @@ void Integrator::Impl::setMaterial(CameraPoint& point) const {
 Integrator::Integrator(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
                        const Environment& environment, const ReferenceOptions& options,
                        const Progress& progress, Sampling sampling)
-    : impl_(std::make_unique<Impl>(scene, posed, camera, environment, options, progress, sampling)) {}
+    : impl_(std::make_unique<Impl>(scene, posed, camera, environment, options, progress, sampling)) {
+  const glm::ivec2 size = glm::ivec2(options.width, options.height) * options.supersample;
+  std::vector<glm::vec3> seen;
+  for (int i = 0; i < kLooks * kLooks; ++i) {
+    const glm::ivec2 cell(i % kLooks, i / kLooks);
+    const glm::ivec2 place = (2 * cell + 1) * size / (2 * kLooks);
+    const CameraPoint point = look(place.x, place.y);
+    if (point.instance != kNone) seen.push_back(point.position);
+  }
+  impl_->paths.shootNear(seen);
+}
 
 Integrator::~Integrator() = default;
 

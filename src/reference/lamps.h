@@ -18,6 +18,7 @@ struct Lamp {
   Light::Type type = Light::Type::kPoint;
   glm::vec3 position{0.0f}, direction{0.0f, 0.0f, -1.0f}, intensity{0.0f};
   float range = 0.0f, cos_inner = 1.0f, cos_outer = 0.0f;
+  float shot_density = 0.0f;  ///< 1/sr: LampShots; 0 where it sends no rays
 
   /// Irradiance on a plane that faces the lamp, without shadow.
   struct Arriving {

@@ -26,8 +26,10 @@ struct PathLanes {
   // The step by lobes.
   LaneVectors direction, step;  ///< the latter: throughput beyond it; 0 where there is none
   LaneFloats pdf;               ///< 1/sr; 0: no step
-  std::uint32_t going;          ///< bit i: lane i has a step that brings something
-  bool glossy;                  ///< some lane has a Phong lobe
+  /// Density, 1/m^2, of the step that found this vertex; infinite where no ray of a lamp could have found it for the path.
+  LaneFloats found;
+  std::uint32_t going;  ///< bit i: lane i has a step that brings something
+  bool glossy;          ///< some lane has a Phong lobe
 };
 
 /// Where rays meet triangles: corners, their normals in the world, the place between them.
@@ -73,6 +75,16 @@ struct EmitterLanes {
 };
 void lightFromEmitters(const PathLanes& lanes, const EmitterLanes& points, bool both, LightLanes& light);
 void lightFromLamp(const PathLanes& lanes, const Lamp& lamp, LightLanes& light);
+/// Where rays from lamps have landed: a second set of lanes is there, and looks at the first.
+struct ShotLanes {
+  LaneVectors to_lamp;     ///< unit
+  LaneVectors irradiance;  ///< across the way to the lamp, divided by area_pdf
+  LaneFloats area_pdf;     ///< 1/m^2
+  std::uint32_t landed;    ///< bit i: lane i has a vertex
+};
+/// Joined with the step's density by the power heuristic, as light from lamps is at vertices that were `found`.
+void lightFromShots(const PathLanes& lanes, const PathLanes& there, const ShotLanes& shots,
+                    LightLanes& light);
 /// One of many, by what it would give without shadow; what is left of the number chooses on.
 void lightFromOneLamp(const PathLanes& lanes, std::span<const Lamp> lamps, const Sampler::Scramble& scramble,
                       LightLanes& light);

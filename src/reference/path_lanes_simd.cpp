@@ -268,10 +268,14 @@ HWY_INLINE Arriving lampAt(const Lamp& lamp, const V3& place) {
 }
 
 // What it gives without shadow, and without the path's throughput.
-HWY_INLINE V3 lampLight(const PathLanes& lanes, const Arriving& from, std::size_t i) {
+HWY_INLINE V3 lampLight(const PathLanes& lanes, const Lamp& lamp, const Arriving& from, std::size_t i) {
   const M wanted = hn::And(isAbove(lanes, from.to_lamp, i), notBlack(from.irradiance));
   if (hn::AllFalse(D(), wanted)) return {zero(), zero(), zero()};
-  return keep(wanted, mul(from.irradiance, lobesAt(lanes, from.to_lamp, i).value));
+  const V3 given = mul(from.irradiance, lobesAt(lanes, from.to_lamp, i).value);
+  if (lamp.shot_density == 0.0f) return keep(wanted, given);
+  const V cosine = dot(load(lanes.geometric_normal, i), from.to_lamp);
+  const V shot = hn::Div(hn::Mul(all(lamp.shot_density), cosine), hn::Mul(from.distance, from.distance));
+  return keep(wanted, mul(given, weight(load(lanes.found, i), shot, all(1.0f))));
 }
 
 HWY_INLINE std::uint32_t storeLamp(const PathLanes& lanes, const V3& to_lamp, V distance, const V3& given,
@@ -290,7 +294,7 @@ void lampKernel(const PathLanes& lanes, const Lamp& lamp, LightLanes& light) {
   light.wanted = 0;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const Arriving from = lampAt(lamp, load(lanes.position, i));
-    const V3 given = lampLight(lanes, from, i);
+    const V3 given = lampLight(lanes, lamp, from, i);
     if (hn::AllFalse(D(), notBlack(given))) continue;
     light.wanted |= storeLamp(lanes, from.to_lamp, from.distance, given, light, i);
   }
@@ -304,7 +308,7 @@ void oneLampKernel(const PathLanes& lanes, std::span<const Lamp> lamps, const Sa
     V3 chosen{zero(), zero(), zero()}, to_lamp = chosen;
     for (const Lamp& lamp : lamps) {
       const Arriving from = lampAt(lamp, load(lanes.position, i));
-      const V3 given = lampLight(lanes, from, i);
+      const V3 given = lampLight(lanes, lamp, from, i);
       const V size = hn::Add(hn::Add(given.x, given.y), given.z);
       const M some = hn::Gt(size, zero());
       if (hn::AllFalse(D(), some)) continue;
@@ -319,6 +323,28 @@ void oneLampKernel(const PathLanes& lanes, std::span<const Lamp> lamps, const Sa
     }
     light.wanted |= storeLamp(lanes, to_lamp, distance, mul(chosen, total), light, i);
   }
+}
+
+void shotsKernel(const PathLanes& lanes, const PathLanes& there, const ShotLanes& shots, LightLanes& light) {
+  light.wanted = 0;
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
+    const V3 way = sub(load(there.position, i), load(lanes.position, i));
+    const V squared = dot(way, way);
+    const V3 direction = mul(way, hn::Div(all(1.0f), hn::Sqrt(squared)));
+    const V cosine = hn::Neg(dot(load(there.geometric_normal, i), direction));
+    const M wanted = hn::And(isAbove(lanes, direction, i), hn::Gt(cosine, zero()));
+    if (hn::AllFalse(D(), wanted)) continue;
+    const V reach = hn::Div(cosine, squared);
+    const Lobes near_lobes = lobesAt(lanes, direction, i);
+    const Lobes far_lobes = lobesAt(there, load(shots.to_lamp, i), i);
+    const V share =
+        hn::Mul(reach, weight(load(shots.area_pdf, i), hn::Mul(near_lobes.pdf, reach), all(1.0f)));
+    const V3 sum = mul(mul(mul(load(lanes.throughput, i), near_lobes.value), far_lobes.value),
+                       mul(load(shots.irradiance, i), share));
+    storeRay(lanes, load(there.origin, i), light, i);
+    light.wanted |= storeLight(wanted, sum, light.light, i);
+  }
+  light.wanted &= shots.landed;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -340,6 +366,7 @@ HWY_EXPORT(skyStepsKernel);
 HWY_EXPORT(emittersKernel);
 HWY_EXPORT(lampKernel);
 HWY_EXPORT(oneLampKernel);
+HWY_EXPORT(shotsKernel);
 
 void numbersOfLanes(const Sampler::Scramble& scramble, const LaneBits& places, LaneBits& x, LaneBits& y) {
   HWY_DYNAMIC_DISPATCH(numbersKernel)(scramble, places, x, y);
@@ -382,6 +409,10 @@ void lightFromLamp(const PathLanes& lanes, const Lamp& lamp, LightLanes& light) 
 void lightFromOneLamp(const PathLanes& lanes, std::span<const Lamp> lamps, const Sampler::Scramble& scramble,
                       LightLanes& light) {
   HWY_DYNAMIC_DISPATCH(oneLampKernel)(lanes, lamps, scramble, light);
+}
+void lightFromShots(const PathLanes& lanes, const PathLanes& there, const ShotLanes& shots,
+                    LightLanes& light) {
+  HWY_DYNAMIC_DISPATCH(shotsKernel)(lanes, there, shots, light);
 }
 
 }  // namespace gloam::reference

@@ -10,13 +10,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "reference/paths_batch.h"
 
 namespace gloam::reference {
 namespace {
 
-constexpr int kFirstRoulette = 4;         // vertices before it are always followed
+constexpr int kFirstRoulette = 4;  // vertices before it are always followed
+constexpr float kLeastDensity = 1e-30f;
 constexpr float kSurestRoulette = 0.95f;  // so that a white furnace ends too
 
 float largest(const glm::vec3& v) {
@@ -46,6 +48,10 @@ Paths::Paths(const Scene& scene, const PosedScene& posed,
                bounces && light.local_indirect && !lamps_.empty(),
                bounces && light.emitter_indirect && !emitters_.empty()};
   last_depth_ = indirect_.any() ? options.bounces : 0;
+}
+
+void Paths::shootNear(std::span<const glm::vec3> seen) {
+  if (indirect_.lamps && both_) shots_ = LampShots(lamps_, tracer_, seen);
 }
 
 // Light in the sky behind the steps.
@@ -93,6 +99,12 @@ void Paths::traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const {
   if (go_on && before) surfaces_.prefetchVertices(*before);
 }
 
+// Of the step to a vertex, over area.
+float Paths::densityOf(const Batch& batch, int lane, const trace::Hit& hit) const {
+  const float cosine = std::abs(glm::dot(hit.geometric_normal, batch.lanes.direction.get(lane)));
+  return std::max(batch.lanes.pdf.at[lane] * cosine / (hit.distance * hit.distance), kLeastDensity);
+}
+
 // To the next vertices; collects what shines there.
 void Paths::advance(Batch& batch, bool go_on) const {
   PathLanes& lanes = batch.lanes;
@@ -118,6 +130,7 @@ void Paths::advance(Batch& batch, bool go_on) const {
     lanes.place.at[left] = lanes.place.at[i];
     lanes.slot.at[left] = lanes.slot.at[i];
     lanes.throughput.set(left, throughput);
+    if (!shots_.empty()) lanes.found.at[left] = densityOf(batch, i, hits[i]);
     lanes.to_view.set(left, -lanes.direction.get(i));
     if (surfaces_.arrive(lanes, batch.arrivals, left, hits[i])) ++left;
   }
@@ -147,6 +160,7 @@ void Paths::walk(Batch& batch) const {
     if (batch.sources.lamps) fromLamps(batch);
     if (sky_by_light) fromEnvironment(batch);
     if (batch.sources.emitters && sample_lights_) fromEmitters(batch);
+    if (go_on && !shots_.empty()) fromShots(batch);
     if (!go_on && !by_lobes) return;
     if (sky_by_lobes) findSky(batch);
     if (!go_on && !batch.sources.emitters) return finish(batch);
@@ -174,6 +188,7 @@ void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
     PathLight& own = light[std::size_t(i)] = {};
     lanes.place.at[i] = places.at[i];
     lanes.slot.at[i] = i;
+    lanes.found.at[i] = std::numeric_limits<float>::infinity();
     glm::vec2 shift(0.0f);
     if (textured) {
       const glm::vec2 place = glm::vec2(Sampler::toUnit(x.at[i]), Sampler::toUnit(y.at[i])) - 0.5f;

@@ -12,7 +12,7 @@
 #include "reference/emitters.h"
 #include "reference/environment_sampler.h"
 #include "reference/integrator.h"
-#include "reference/lamps.h"
+#include "reference/lamp_shots.h"
 #include "reference/sampler.h"
 #include "reference/surfaces.h"
 
@@ -24,12 +24,17 @@ struct Sources {
   bool any() const { return environment || lamps || emitters; }
 };
 
+struct PathLanes;
+struct ShotLanes;
+
 class Paths {
  public:
   /// `environment` is the light, as ReferenceOptions::environment_order asks for it.
   Paths(const Scene& scene, const PosedScene& posed, std::shared_ptr<const EnvironmentSampler> environment,
         const ReferenceOptions& options, Sampling sampling, const Progress& progress);
   Paths(const Paths&) = delete;
+  /// Lets lamps send rays that are near to something (lamp_shots.h). `seen`: places that the camera sees.
+  void shootNear(std::span<const glm::vec3> seen);
 
   /// Samples first, first + 1 … of a point that is no background. `light` is overwritten.
   void trace(const CameraPoint& point, std::uint32_t pixel, std::uint32_t first, std::span<PathLight> light,
@@ -47,9 +52,12 @@ class Paths {
   void fromLamps(Batch& batch) const;
   void fromEnvironment(Batch& batch) const;
   void fromEmitters(Batch& batch) const;
+  std::uint32_t shoot(Batch& batch, PathLanes& lanes, ShotLanes& shots) const;
+  void fromShots(Batch& batch) const;
   void castShadows(Batch& batch, LightPath direct) const;
   void findSky(Batch& batch) const;
   void finish(Batch& batch) const;
+  float densityOf(const Batch& batch, int lane, const trace::Hit& hit) const;
   void advance(Batch& batch, bool go_on) const;
   void traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const;
   void addEmission(Batch& batch, int lane, const trace::Hit& hit) const;
@@ -63,6 +71,7 @@ class Paths {
   std::shared_ptr<const EnvironmentSampler> environment_;
   Emitters emitters_;
   std::vector<Lamp> lamps_;
+  LampShots shots_;
   Sources direct_, indirect_;
   int last_depth_ = 0;
   std::uint64_t seed_ = 0;

@@ -12,6 +12,7 @@ namespace gloam::reference {
 // Pairs of random numbers: one for the picture, then so many a vertex.
 enum Pair : std::uint32_t { kLobes, kEnvironment, kEmitterPoint, kEmitter, kLampAndRoulette, kPairsAVertex };
 inline constexpr std::uint32_t kPixelPair = 0;
+inline constexpr std::uint32_t kFirstShotPair = 1u << 16;  // two a vertex, beyond all others
 
 struct Paths::Batch {
   Batch(std::size_t& rays_traced, std::vector<trace::LoggedRay>* rays_logged, const Sampler& first_sampler)
@@ -32,9 +33,18 @@ struct Paths::Batch {
   std::uint32_t above = 0;     // those above the surface, a bit a lane
   SkyLight sky;
   LaneVectors step_light;  // that the steps find in the sky, unless something is in the way
+  struct Shot {
+    PathLanes lanes{};
+    Surfaces::Arrivals arrivals{};
+    ShotLanes shots{};
+  };
+  std::unique_ptr<Shot> shot;  // where lamps send rays
 
   Sampler::Scramble scramble(Pair which) const {
     return sampler.scramble(1u + std::uint32_t(depth) * kPairsAVertex + which);
+  }
+  Sampler::Scramble shotScramble(std::uint32_t which) const {
+    return sampler.scramble(kFirstShotPair + std::uint32_t(depth) * 2u + which);
   }
   std::uint32_t used() const { return (1u << count) - 1u; }
   std::uint32_t going() const { return lanes.going & used(); }
