@@ -8,12 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "math/sampling.h"
 #include "reference/angles.h"
-#include "reference/distribution.h"
 #include "scene/environment.h"
 
 namespace gloam::reference {
@@ -31,27 +29,19 @@ float importanceOf(const glm::vec3& radiance) {
   return (size.r + size.g + size.b) * (1.0f / 3.0f);
 }
 
-// Sine of the elevation at which row r of cells begins, r = 0 … height + 1, from the top down.
-double rowSine(int r, int height) {
-  const double y = std::clamp(double(r), 0.5, double(height) + 0.5);
-  return std::cos((y - 0.5) / height * kPiDouble);
-}
-
 constexpr int kMostTexels = 32768;  // each way
 constexpr std::int64_t kMostOfAll = std::int64_t(1) << 27;
-constexpr int kRowBits = 12;  // of the table of where to begin among rows
 
-// The same for the cells of a row: about as many parts as cells.
-int bitsFor(int cells) {
-  return std::clamp(int(std::bit_width(unsigned(cells))) - 1, 1, 16);
-}
-
-void append(const Distribution& choice, std::vector<std::uint32_t>& starts,
-            std::vector<std::uint16_t>& first) {
-  starts.insert(starts.end(), choice.starts().begin(), choice.starts().end());
-  starts.push_back(0xffffffffu);
-  for (const std::uint32_t entry : choice.first()) first.push_back(std::uint16_t(entry));
-  first.push_back(std::uint16_t(choice.last()));
+// The slow twin of findKernel's.
+int blockAt(const SkyTable& sky, float x, float y) {
+  const int unit_x = int(x * float(kSkyParts)), unit_y = int(y * float(kSkyParts));
+  int bit = sky.tile_bits + kSkyPartBits;
+  std::int32_t entry = sky.tiles[std::size_t((unit_y >> bit) * sky.tiles_across + (unit_x >> bit))];
+  while (entry < 0) {
+    --bit;
+    entry = sky.nodes[std::size_t(~entry + ((unit_y >> bit) & 1) * 2 + ((unit_x >> bit) & 1))];
+  }
+  return entry;
 }
 
 }  // namespace
@@ -67,7 +57,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment, int order
   } else {
     fillPixels(environment);
   }
-  fillChoices();
+  fillBlocks(sky_);
 }
 
 void EnvironmentSampler::fillPixels(const Environment& environment) {
@@ -122,39 +112,6 @@ void EnvironmentSampler::fillTexels(const std::vector<glm::vec4>& texels) {
   }
 }
 
-void EnvironmentSampler::fillChoices() {
-  const int width = sky_.width, height = sky_.height;
-  const float half_angle = std::sin(0.25f * kPi / float(height));
-  sky_.polar_height = 2.0f * half_angle * half_angle;
-  const int cell_bits = bitsFor(width), row_bits = kRowBits;
-  sky_.cell_shift = 32 - cell_bits;
-  sky_.row_shift = 32 - row_bits;
-  std::vector<float> cells(static_cast<std::size_t>(width)), rows;
-  std::vector<double> density;
-  double total = 0.0;
-  for (int r = 0; r <= height; ++r) {
-    double sum = 0.0;
-    for (int c = 0; c < width; ++c) {
-      const glm::vec4* t = cell(c, r);
-      const double mean = 0.25 * (double(t[0].w) + double(t[1].w) + double(t[2].w) + double(t[3].w));
-      cells[std::size_t(c)] = float(mean);
-      sum += mean;
-    }
-    const double sines = rowSine(r, height) - rowSine(r + 1, height);
-    rows.push_back(float(2.0 * kPiDouble / width * sines * sum));
-    total += 2.0 * kPiDouble / width * sines * sum;
-    const bool pole = r == 0 || r == height;
-    density.push_back(pole ? 1.0 : sines * height / kPiDouble);
-    append(Distribution(cells, cell_bits), sky_.cell_starts, sky_.cell_first);
-  }
-  const Distribution choice(rows, row_bits);
-  if (choice.empty()) return;
-  append(choice, sky_.row_starts, sky_.row_first);
-  sky_.row_first.push_back(0);
-  sky_.cell_first.push_back(0);
-  for (const double row : density) sky_.density.push_back(float(row / total));
-}
-
 void EnvironmentSampler::at(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
                             SkyLight& light) const {
   lightAt(sky_, places, mask, light);
@@ -184,9 +141,9 @@ EnvironmentSampler::Light EnvironmentSampler::from(const glm::vec3& d) const {
   const glm::vec4* t = cell(cell_x, cell_y);
   const float right = x - float(cell_x), down = y - float(cell_y);
   const glm::vec4 light = glm::mix(glm::mix(t[0], t[1], down), glm::mix(t[2], t[3], down), right);
-  float pdf = light.w * sky_.density[std::size_t(cell_y)];
-  if (cell_y > 0 && cell_y < height) pdf /= std::max(cos_elevation, 1e-6f);
-  return {projection_.order > 0 ? sh::valueAt(projection_, d) : glm::vec3(light), pdf};
+  const float density = sky_.blocks[std::size_t(blockAt(sky_, x, y))].density;
+  return {projection_.order > 0 ? sh::valueAt(projection_, d) : glm::vec3(light),
+          density / std::max(cos_elevation, 1e-6f)};
 }
 
 }  // namespace gloam::reference

@@ -19,7 +19,7 @@ class EnvironmentSampler {
   EnvironmentSampler(const Environment& environment, int order);
 
   /// No light from anywhere. Then only from() may be asked.
-  bool black() const { return sky_.row_starts.empty(); }
+  bool black() const { return sky_.blocks.empty(); }
 
   struct Light {
     glm::vec3 radiance{0.0f};
@@ -33,8 +33,7 @@ class EnvironmentSampler {
   /// Directions by their light.
   void choose(const Sampler::Scramble& scramble, const LaneBits& numbers, SkyPlaces& places,
               LaneVectors& directions) const {
-    chooseCells(sky_, scramble, numbers, places);
-    placeInCells(sky_, places, directions);
+    chooseIn(sky_, scramble, numbers, places, directions);
   }
   /// Sends for the light of those lanes, a bit each: at() is better asked some time later.
   void sendFor(const SkyPlaces& places, std::uint32_t mask) const {
@@ -46,7 +45,6 @@ class EnvironmentSampler {
  private:
   void fillPixels(const Environment& environment);
   void fillProjection(const Environment& environment, int order);
-  void fillChoices();
   void fillTexels(const std::vector<glm::vec4>& texels);
   /// Its texels: upper left, lower left, upper right, lower right.
   const glm::vec4* cell(int x, int y) const {

@@ -10,40 +10,55 @@
 
 namespace gloam::reference {
 
+/// A part of the picture over which directions are spread evenly in longitude and elevation, in cells.
+struct SkyBlock {
+  float x = 0.0f, y = 0.0f, across = 0.0f, down = 0.0f;
+  float density =
+      0.0f;  ///< chance of the block / its extent in longitude and elevation; / cos elevation: 1/sr
+  float unused[3] = {};
+};
+
+/// The least blocks are a sixteenth of a cell each way: the sun of a small picture is one texel.
+inline constexpr int kSkyParts = 16, kSkyPartBits = 4;
+
 struct SkyTable {
   int width = 0, height = 0;  ///< texels
-  /// Cell (x, y) lies between four texels, w: importance. [cell][upper left, lower left], row by row, of width + 1 cells each: the
-  /// next entry has the two on the right. So a cell comes from memory in one piece, or two.
+  /// Cell (x, y), y up to `height`, lies between four texels. [cell][upper left, lower left], row by row, of width + 1 cells
+  /// each: the next entry has the two on the right. So a cell comes from memory in one piece, or two.
   std::vector<glm::vec4> texels;
   float cos_rotation = 1.0f, sin_rotation = 0.0f;
-  float turned = 0.5f;        ///< longitude 0 in the picture, as a share of its width
-  float polar_height = 0.0f;  ///< of the caps above and below the outermost texel centres
-  std::vector<float>
-      density;  ///< of each row of cells; times importance (/ cos elevation, but at the poles): the density
-  /// Inverse of the cumulative distribution of rows, and of the cells in each of them (Distribution's, one after another,
-  /// starts closed by the largest number, first by the
-  /// last entry, and by one more at the end).
-  std::vector<std::uint32_t> row_starts, cell_starts;
-  std::vector<std::uint16_t> row_first, cell_first;
-  int row_shift = 0, cell_shift = 0;
+  float turned = 0.5f;  ///< longitude 0 in the picture, as a share of its width
+  /// Neighbours in the list are neighbours in the picture. Few enough for a processor's second cache.
+  std::vector<SkyBlock> blocks;
+  /// Inverse of the cumulative distribution of blocks (Distribution's; starts closed by the largest number, first by the
+  /// last entry and one more).
+  std::vector<std::uint32_t> starts;
+  std::vector<std::uint16_t> first;
+  int shift = 0;
+  /// The block at a place: a quadtree under each tile of 2^tile_bits cells each way. An entry is a block, or ~ the first of
+  /// four entries of `nodes`: upper left, upper right, lower left, lower right.
+  int tile_bits = 0, tiles_across = 0;
+  std::vector<std::int32_t> tiles, nodes;
 };
+
+/// Cuts the sky into blocks, finer where it is less even, out of the importance (w) of its texels, and fills all that
+/// chooses and finds them; nothing where there is no light (sky_blocks.cpp).
+void fillBlocks(SkyTable& sky);
 
 /// Where directions lie: a cell and a place in it.
 struct SkyPlaces {
   LaneInts cell_x, cell_y;
   LaneFloats x, y;
-  LaneFloats cos_elevation;  ///< unknown as long as it comes from chooseCells
+  LaneFloats density, cos_elevation;  ///< the one by the other is 1/sr
 };
 struct SkyLight {
   LaneVectors radiance;
   LaneFloats pdf;  ///< 1/sr
 };
 
-/// Cells by their light, from numbers as Sampler::numbers gives them; x and y are what is left of those.
-void chooseCells(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& places,
-                 SkyPlaces& cells);
-/// Places within chosen cells with the bilinear density, and the directions to them.
-void placeInCells(const SkyTable& sky, SkyPlaces& places, LaneVectors& directions);
+/// Directions by their light, from numbers as Sampler::numbers gives them.
+void chooseIn(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& numbers,
+              SkyPlaces& places, LaneVectors& directions);
 void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places);
 /// Sends for the light of those lanes (a bit each): lightAt is better called some time later.
 void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask);

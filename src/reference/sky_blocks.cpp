@@ -1,0 +1,217 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The sky as blocks. Within one, directions are even in longitude and elevation, so samples vary there as far as
+// g = importance cos(elevation) does; a block chosen in proportion to the root mean square of g times its extent makes the
+// least of that. The block that would gain most is quartered, until little can be gained or there are as many as a
+// processor keeps close by: reading the sky's picture itself, texel by texel from memory, costs more than tracing the ray.
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "reference/distribution.h"
+#include "reference/sky_lanes.h"
+
+namespace gloam::reference {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kMostBlocks = 16384;
+constexpr double kEnough = 0.002;     // share of the light by which root mean squares may exceed means
+constexpr double kLeastShare = 1e-7;  // of the chances: more than the numbers' steps
+constexpr std::size_t kMostTiles = 4096;
+constexpr int kChoiceBits = 12;
+
+/// Extent, integral of g and of its square over it.
+struct Moments {
+  double area = 0.0, g = 0.0, g2 = 0.0;
+  double weight() const { return std::sqrt(g2 * area); }
+  double excess() const { return std::max(0.0, weight() - g); }
+  void add(const Moments& o) { area += o.area, g += o.g, g2 += o.g2; }
+};
+
+/// A square of the picture, in parts of a cell.
+struct Square {
+  int x = 0, y = 0, size = 0;
+};
+
+struct Leaf {
+  Square square;
+  Moments moments;
+  std::size_t parent = 0;  // index into entries: tiles first, then nodes
+};
+
+class Builder {
+ public:
+  explicit Builder(SkyTable& sky) : sky_(sky) {}
+  void run();
+
+ private:
+  Moments momentsOf(int x, int y, int size) const;
+  Moments momentsIn(double x0, double y0, double x1, double y1) const;
+  void split(std::size_t leaf);
+  std::int32_t& entry(std::size_t i) {
+    return i < sky_.tiles.size() ? sky_.tiles[i] : sky_.nodes[i - sky_.tiles.size()];
+  }
+  void refine();
+  void finish();
+
+  SkyTable& sky_;
+  std::vector<Leaf> leaves_;
+};
+
+/// Part of one cell, in which the importance is bilinear and the cosine taken as constant.
+Moments Builder::momentsIn(double x0, double y0, double x1, double y1) const {
+  y0 = std::max(y0, 0.5), y1 = std::min(y1, double(sky_.height) + 0.5);
+  x1 = std::min(x1, double(sky_.width));
+  if (!(x1 > x0) || !(y1 > y0)) return {};
+  const int cell_x = int(x0), cell_y = int(y0);
+  const glm::vec4* t =
+      &sky_.texels[2 * (std::size_t(cell_y) * std::size_t(sky_.width + 1) + std::size_t(cell_x))];
+  const auto value = [&](double x, double y) {
+    const double right = x - cell_x, down = y - cell_y;
+    return (double(t[0].w) * (1.0 - right) + double(t[2].w) * right) * (1.0 - down) +
+           (double(t[1].w) * (1.0 - right) + double(t[3].w) * right) * down;
+  };
+  const double a = value(x0, y0), b = value(x1, y0), c = value(x0, y1), d = value(x1, y1);
+  const double cosine = std::sin((0.5 * (y0 + y1) - 0.5) / sky_.height * kPi);
+  const double area = (x1 - x0) / sky_.width * 2.0 * kPi * (y1 - y0) / sky_.height * kPi;
+  const double square =
+      (a * a + b * b + c * c + d * d + a * b + a * c + b * d + c * d + 0.5 * (a * d + b * c)) / 9.0;
+  return {area, 0.25 * (a + b + c + d) * cosine * area, square * cosine * cosine * area};
+}
+
+Moments Builder::momentsOf(int x, int y, int size) const {
+  const double unit = 1.0 / kSkyParts;
+  if (size <= kSkyParts) return momentsIn(x * unit, y * unit, (x + size) * unit, (y + size) * unit);
+  Moments sum;
+  const int last_y = std::min((y + size) / kSkyParts, sky_.height + 1);
+  const int last_x = std::min((x + size) / kSkyParts, sky_.width);
+  for (int row = y / kSkyParts; row < last_y; ++row)
+    for (int column = x / kSkyParts; column < last_x; ++column)
+      sum.add(momentsIn(column, row, column + 1, row + 1));
+  return sum;
+}
+
+/// Its four quarters: the first in its place, the others at the end.
+void Builder::split(std::size_t index) {
+  const Leaf old = leaves_[index];
+  const std::size_t first = sky_.nodes.size();
+  sky_.nodes.resize(first + 4, 0);
+  entry(old.parent) = ~std::int32_t(first);
+  const int half = old.square.size / 2;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const int x = old.square.x + (quarter & 1) * half, y = old.square.y + (quarter >> 1) * half;
+    const Leaf leaf{{x, y, half}, momentsOf(x, y, half), sky_.tiles.size() + first + std::size_t(quarter)};
+    if (quarter == 0) {
+      leaves_[index] = leaf;
+    } else {
+      leaves_.push_back(leaf);
+    }
+  }
+}
+
+void Builder::refine() {
+  using Wish = std::pair<double, std::size_t>;
+  std::priority_queue<Wish> wishes;
+  double light = 0.0, excess = 0.0;
+  const auto wish = [&](std::size_t i) {
+    const double gain = leaves_[i].moments.excess();
+    excess += gain;
+    if (gain > 0.0 && leaves_[i].square.size > 1) wishes.push({gain, i});
+  };
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    light += leaves_[i].moments.g;
+    wish(i);
+  }
+  while (!wishes.empty() && excess > kEnough * light && leaves_.size() + 3 <= kMostBlocks) {
+    const auto [gain, i] = wishes.top();
+    wishes.pop();
+    excess -= gain;
+    const std::size_t before = leaves_.size();
+    split(i);
+    wish(i);
+    for (std::size_t k = before; k < leaves_.size(); ++k) wish(k);
+  }
+}
+
+/// Place of a square on Hilbert's curve (Hilbert 1891) over 2^bits by 2^bits.
+std::uint64_t alongCurve(std::uint32_t x, std::uint32_t y, int bits) {
+  std::uint64_t place = 0;
+  for (std::uint32_t s = 1u << (bits - 1); s > 0; s >>= 1) {
+    const bool right = (x & s) != 0, down = (y & s) != 0;
+    place += std::uint64_t(s) * s * ((right ? 3u : 0u) ^ (down ? 1u : 0u));
+    if (!down) {
+      if (right) {
+        x = ~x;
+        y = ~y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return place;
+}
+
+void Builder::finish() {
+  constexpr int kCurveBits = 20;  // 32768 texels and the last row, in parts
+  std::sort(leaves_.begin(), leaves_.end(), [](const Leaf& a, const Leaf& b) {
+    const auto place = [](const Leaf& leaf) {
+      return alongCurve(std::uint32_t(leaf.square.x), std::uint32_t(leaf.square.y), kCurveBits);
+    };
+    return place(a) < place(b);
+  });
+  double total = 0.0;
+  for (const Leaf& leaf : leaves_) total += leaf.moments.weight();
+  std::vector<float> weights;
+  for (const Leaf& leaf : leaves_) {
+    const double weight = leaf.moments.weight();
+    weights.push_back(weight > 0.0 ? float(std::max(weight, kLeastShare * total)) : 0.0f);
+  }
+  const Distribution choice(weights, kChoiceBits);
+  sky_.blocks.clear();
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const auto& [square, moments, parent] = leaves_[i];
+    entry(parent) = std::int32_t(i);
+    const float unit = 1.0f / float(kSkyParts);
+    const float x0 = float(square.x) * unit, y0 = std::max(float(square.y) * unit, 0.5f);
+    const float x1 = std::min(float(square.x + square.size) * unit, float(sky_.width));
+    const float y1 = std::min(float(square.y + square.size) * unit, float(sky_.height) + 0.5f);
+    const double chance = double(choice.probability(std::uint32_t(i)));
+    sky_.blocks.push_back({x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0),
+                           moments.area > 0.0 ? float(chance / moments.area) : 0.0f});
+  }
+  if (choice.empty()) {
+    sky_.blocks.clear();
+    return;
+  }
+  sky_.shift = 32 - kChoiceBits;
+  sky_.starts.assign(choice.starts().begin(), choice.starts().end());
+  sky_.starts.push_back(0xffffffffu);
+  for (const std::uint32_t i : choice.first()) sky_.first.push_back(std::uint16_t(i));
+  sky_.first.push_back(std::uint16_t(choice.last()));
+  sky_.first.push_back(0);
+}
+
+void Builder::run() {
+  const auto tilesAlong = [&](int cells) { return (cells + (1 << sky_.tile_bits) - 1) >> sky_.tile_bits; };
+  sky_.tile_bits = 4;
+  while (std::size_t(tilesAlong(sky_.width)) * std::size_t(tilesAlong(sky_.height + 1)) > kMostTiles)
+    ++sky_.tile_bits;
+  sky_.tiles_across = tilesAlong(sky_.width);
+  sky_.tiles.assign(std::size_t(sky_.tiles_across) * std::size_t(tilesAlong(sky_.height + 1)), 0);
+  const int size = kSkyParts << sky_.tile_bits;
+  for (std::size_t i = 0; i < sky_.tiles.size(); ++i) {
+    const int x = int(i) % sky_.tiles_across * size, y = int(i) / sky_.tiles_across * size;
+    leaves_.push_back({{x, y, size}, momentsOf(x, y, size), i});
+  }
+  refine();
+  finish();
+}
+
+}  // namespace
+
+void fillBlocks(SkyTable& sky) {
+  Builder(sky).run();
+}
+
+}  // namespace gloam::reference
