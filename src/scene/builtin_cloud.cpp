@@ -53,7 +53,7 @@ float cloudAt(const glm::vec3& p) {
   static constexpr Ball kBalls[] = {
       {{-0.62f, -0.28f, 0.05f}, 0.40f}, {{-0.22f, -0.06f, -0.10f}, 0.52f}, {{0.22f, 0.10f, 0.06f}, 0.52f},
       {{0.64f, -0.22f, -0.02f}, 0.42f}, {{0.05f, -0.28f, 0.42f}, 0.40f},   {{-0.05f, 0.36f, -0.04f}, 0.32f},
-      {{0.38f, -0.30f, -0.42f}, 0.34f}, {{-0.42f, -0.32f, -0.42f}, 0.32f}, {{0.92f, -0.36f, 0.12f}, 0.22f},
+      {{0.38f, -0.30f, -0.42f}, 0.34f}, {{-0.42f, -0.32f, -0.42f}, 0.32f}, {{0.80f, -0.38f, 0.14f}, 0.24f},
   };
   float empty = 1.0f;  // a smooth union
   for (const Ball& b : kBalls) empty *= 1.0f - smoothstep(1.25f, 0.2f, glm::length(p - b.center) / b.radius);

@@ -253,9 +253,9 @@ TEST_F(GltfBroken, Containers) {
   EXPECT_NE(refusal(put("a.glb", Bytes())).find("empty"), std::string::npos);
   EXPECT_NE(refusal(path("none.glb").string()).find("no such file"), std::string::npos);
   EXPECT_NE(refusal(path("").string()).find("folder"), std::string::npos);
-  EXPECT_NE(
-      refusal(put("a.blend", std::string("BLENDER"))).find(".gltf, .glb, .obj, .ply, .off, .fbx and .3ds"),
-      std::string::npos);
+  EXPECT_NE(refusal(put("a.blend", std::string("BLENDER")))
+                .find(".gltf, .glb, .obj, .ply, .off, .fbx, .3ds, .raw and .vdb"),
+            std::string::npos);
   Bytes longer = good;
   longer.push_back(0);
   EXPECT_TRUE(warned(loadScene(put("a.glb", longer)), "1 bytes after the end"));

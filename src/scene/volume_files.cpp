@@ -149,8 +149,9 @@ Scene volumeScene(const std::string& name, Volume volume, float above, float cel
                 builder.diffuse("ground", {0.36f, 0.38f, 0.33f}));
   const int node = builder.node(volume.name, kNone, {-middle.x, above - volume.bounds_min.y, -middle.z});
   builder.at(node).volume = std::make_shared<Volume>(std::move(volume));
-  const float height = above + 0.45f * side.y;
-  builder.camera({1.2f * unit, height - 0.1f * unit, 4.4f * unit}, {0.0f, 0.72f * height, 0.0f}, 34);
+  // Floor and volume fill the picture's height.
+  const float half = 0.5f * (above + side.y), away = 1.25f * half / std::tan(glm::radians(17.0f));
+  builder.camera({0.26f * away, 0.95f * half + 0.05f * away, 0.96f * away}, {0.0f, 0.95f * half, 0.0f}, 34);
   builder.sky("preetham?elevation=35&azimuth=-60");
   return builder.finish();
 }
