@@ -7,13 +7,9 @@
 #include <scene/animation.h>
 #include <techniques/prt/prt_bake_state.h>
 
-#include <fstream>
 #include <optional>
 
-#include <image/atomic_file.h>
-
 #include "cache_folder.h"
-#include "json.h"
 #include "technique_choice.h"
 
 namespace gloam::cli {
@@ -58,33 +54,9 @@ Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& conso
   }
 }
 
-/// A bake's seconds lie beside it: nothing in the .glb itself depends on the machine that made it.
-fs::path timeFile(const fs::path& bake) {
-  return fs::path(bake).replace_extension(".json");
-}
-
-BakeTime readTime(const fs::path& bake) {
-  std::ifstream in(timeFile(bake), std::ios::binary);
-  const Json json = Json::parse(in, nullptr, false);
-  if (json.is_object() && json.contains("bake_seconds") && json["bake_seconds"].is_number()) {
-    return {json["bake_seconds"].get<double>(), ""};
-  }
-  return {std::nullopt, "taken from the cache, which does not tell how long it took"};
-}
-
 BakeTime timeOf(const BakeReport& report) {
   if (report.resumed) return {std::nullopt, "interrupted and taken up again: not timed as a whole"};
   return {report.first_pass_s + report.bounces_s, ""};
-}
-
-void writeTime(const BakeTime& time, const fs::path& bake) {
-  std::error_code ignored;
-  fs::remove(timeFile(bake), ignored);
-  if (!time.seconds) return;
-  const std::string text = Json{{"bake_seconds", *time.seconds}}.dump() + "\n";
-  AtomicFile file(timeFile(bake));
-  file.write(text.data(), text.size());
-  file.commit();
 }
 
 /// Who draws a scene that is not baked did not ask for more memory than this: its gloss stays unshadowed then.
@@ -138,7 +110,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
     if (std::optional<Scene> kept = readKept(file)) {
       kept->name = scene.name;
       kept->environment = scene.environment;
-      *time = readTime(file);
+      *time = readBakeTime(file);
       console.remark(fmt::format("{}: transfer taken from {}", place, file.string()));
       return *std::move(kept);
     }
@@ -161,7 +133,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
   if (folder) {
     try {
       writeGlb(baked, file);
-      writeTime(*time, file);
+      writeBakeTime(*time, file);
       console.remark(fmt::format("bake kept as {} (--no-cache keeps none)", file.string()));
     } catch (const Error& error) {
       console.remark(fmt::format("the bake is not kept: {}", error.what()));

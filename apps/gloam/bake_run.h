@@ -6,9 +6,9 @@
 
 #include <gloam/bake.h>
 
-#include <optional>
 #include <string>
 
+#include "bake_time.h"
 #include "console.h"
 
 namespace gloam::cli {
@@ -29,11 +29,6 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s,
 /// as the scene stands at `time_s`. Without bounces only its shadows.
 BakeOptions drawingBake(const Scene& scene, float time_s, int bounces = BakeOptions{}.bounces);
 
-/// How long the bake took that a scene came with.
-struct BakeTime {
-  std::optional<double> seconds;  ///< wall clock, of all of it
-  std::string note;               ///< where that is not known: why
-};
 /// The same with options of one's own; `options.checkpoint` is the cache's. Kept bakes bring their time along.
 Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions options, bool use_cache,
                      Console& console, BakeTime* time);

@@ -60,6 +60,7 @@ struct Comparison {
   CompareResults results;
   Page page;
   std::vector<std::optional<SceneSpheres>> spheres;  ///< of contenders that need them
+  std::vector<BakeTime> sphere_times;                ///< what fitting those took
 };
 
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
@@ -71,9 +72,10 @@ fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
 void haveSpheres(Comparison& work, Console& console) {
   for (const Contender& contender : work.contenders) {
     std::optional<SceneSpheres>& spheres = work.spheres.emplace_back();
+    BakeTime& time = work.sphere_times.emplace_back();
     if (!contender.technique->needs_spheres) continue;
     spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
-                                contender.settings.integer("spheres"));
+                                contender.settings.integer("spheres"), &time);
   }
 }
 
@@ -101,7 +103,8 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
       result.bake_seconds = work.stage.bake_seconds;
       result.bake_note = work.stage.bake_note;
     } else if (contender.technique->needs_spheres) {
-      result.bake_note = "spheres are fitted beforehand, once a model";
+      result.bake_seconds = work.sphere_times[i].seconds;
+      result.bake_note = work.sphere_times[i].note;
     }
     result.covers = both(coverageOf(contender), work.stage.in_scene);
     result.missing = without(work.stage.in_scene, coverageOf(contender));

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <scene/scene_fingerprint.h>
 
+#include <chrono>
 #include <optional>
 
 #include "cache_folder.h"
@@ -38,7 +39,7 @@ std::optional<SceneSpheres> readKept(const fs::path& file, const Scene& scene) {
 }  // namespace
 
 SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache, Console& console,
-                               int count) {
+                               int count, BakeTime* time) {
   const SphereOptions options{.count = count};
   const std::optional<fs::path> folder = use_cache ? cacheFolder("spheres") : std::nullopt;
   fs::path file;
@@ -47,18 +48,24 @@ SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, boo
     if (std::optional<SceneSpheres> kept = readKept(file, scene)) {
       console.remark(fmt::format("{}: {} spheres taken from {}", place, kept->count(), file.string()));
       console.remarks(place, kept->warnings);
+      if (time != nullptr) *time = readBakeTime(file);
       return *std::move(kept);
     }
   }
   console.remark(options.count > 0 ? fmt::format("{}: fitting {} spheres first", place, options.count)
                                    : fmt::format("{}: fitting spheres first", place));
   console.release();
+  const auto started = std::chrono::steady_clock::now();
   SceneSpheres spheres = bakeSpheres(scene, options, console.progress());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+  const BakeTime fitted{took.count(), ""};
+  if (time != nullptr) *time = fitted;
   console.endProgress();
   console.remarks(place, spheres.warnings);
   if (folder) {
     try {
       writeSpheres(spheres, file);
+      writeBakeTime(fitted, file);
       console.remark(fmt::format("spheres kept as {} (--no-cache keeps none)", file.string()));
     } catch (const Error& error) {
       console.remark(fmt::format("the spheres are not kept: {}", error.what()));

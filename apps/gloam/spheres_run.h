@@ -8,13 +8,14 @@
 
 #include <string>
 
+#include "bake_time.h"
 #include "console.h"
 
 namespace gloam::cli {
 
 /// Sets with default options but their number. Finished ones are kept under $XDG_CACHE_HOME/gloam/spheres (~/.cache/gloam/spheres) by content and
-/// taken from there; `use_cache` false neither reads nor writes them. Throws Error, Interrupted.
-SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache,
-                               Console& console, int count = SphereOptions{}.count);
+/// taken from there; `use_cache` false neither reads nor writes them. `time`: what fitting them took. Throws Error, Interrupted.
+SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache, Console& console,
+                               int count = SphereOptions{}.count, BakeTime* time = nullptr);
 
 }  // namespace gloam::cli

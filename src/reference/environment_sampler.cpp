@@ -141,7 +141,9 @@ EnvironmentSampler::Light EnvironmentSampler::from(const glm::vec3& d) const {
   const glm::vec4* t = cell(cell_x, cell_y);
   const float right = x - float(cell_x), down = y - float(cell_y);
   const glm::vec4 light = glm::mix(glm::mix(t[0], t[1], down), glm::mix(t[2], t[3], down), right);
-  const float density = sky_.blocks[std::size_t(blockAt(sky_, x, y))].density;
+  const SkyBlock& block = sky_.blocks[std::size_t(blockAt(sky_, x, y))];
+  const float in_block = std::clamp((y - block.y) / std::max(block.down, 1e-6f), 0.0f, 1.0f);
+  const float density = block.density * glm::mix(block.upper, block.lower, in_block);
   return {projection_.order > 0 ? sh::valueAt(projection_, d) : glm::vec3(light),
           density / std::max(cos_elevation, 1e-6f)};
 }

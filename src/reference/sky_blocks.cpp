@@ -1,13 +1,13 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// The sky as blocks. Within one, directions are even in longitude and elevation, so samples vary there as far as
-// g = importance cos(elevation) does; a block chosen in proportion to the root mean square of g times its extent makes the
-// least of that. The block that would gain most is quartered, until little can be gained or there are as many as a
+// The sky as blocks. Within one, directions are nearly even in solid angle, so samples vary there as far as the importance g
+// does; a block chosen in proportion to the root mean square of g times its solid angle makes the least of that. The block that would gain most is quartered, until little can be gained or there are as many as a
 // processor keeps close by: reading the sky's picture itself, texel by texel from memory, costs more than tracing the ray.
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <tuple>
 
 #include "reference/distribution.h"
 #include "reference/sky_lanes.h"
@@ -20,9 +20,9 @@ constexpr std::size_t kMostBlocks = 16384;
 constexpr double kEnough = 0.002;     // share of the light by which root mean squares may exceed means
 constexpr double kLeastShare = 1e-7;  // of the chances: more than the numbers' steps
 constexpr std::size_t kMostTiles = 4096;
-constexpr int kChoiceBits = 12;
+constexpr int kRowBits = 8, kBlockBits = 9;  // of the tables of where to begin
 
-/// Extent, integral of g and of its square over it.
+/// Solid angle, integral of g and of its square over it.
 struct Moments {
   double area = 0.0, g = 0.0, g2 = 0.0;
   double weight() const { return std::sqrt(g2 * area); }
@@ -54,6 +54,7 @@ class Builder {
     return i < sky_.tiles.size() ? sky_.tiles[i] : sky_.nodes[i - sky_.tiles.size()];
   }
   void refine();
+  SkyBlock blockOf(const Square& square, double chance) const;
   void finish();
 
   SkyTable& sky_;
@@ -75,10 +76,10 @@ Moments Builder::momentsIn(double x0, double y0, double x1, double y1) const {
   };
   const double a = value(x0, y0), b = value(x1, y0), c = value(x0, y1), d = value(x1, y1);
   const double cosine = std::sin((0.5 * (y0 + y1) - 0.5) / sky_.height * kPi);
-  const double area = (x1 - x0) / sky_.width * 2.0 * kPi * (y1 - y0) / sky_.height * kPi;
+  const double area = (x1 - x0) / sky_.width * 2.0 * kPi * (y1 - y0) / sky_.height * kPi * cosine;
   const double square =
       (a * a + b * b + c * c + d * d + a * b + a * c + b * d + c * d + 0.5 * (a * d + b * c)) / 9.0;
-  return {area, 0.25 * (a + b + c + d) * cosine * area, square * cosine * cosine * area};
+  return {area, 0.25 * (a + b + c + d) * area, square * area};
 }
 
 Moments Builder::momentsOf(int x, int y, int size) const {
@@ -152,44 +153,71 @@ std::uint64_t alongCurve(std::uint32_t x, std::uint32_t y, int bits) {
   return place;
 }
 
+void append(const Distribution& choice, std::vector<std::uint32_t>& starts,
+            std::vector<std::uint16_t>& first) {
+  starts.insert(starts.end(), choice.starts().begin(), choice.starts().end());
+  starts.push_back(0xffffffffu);
+  for (const std::uint32_t entry : choice.first()) first.push_back(std::uint16_t(entry));
+  first.push_back(std::uint16_t(choice.last()));
+}
+
+SkyBlock Builder::blockOf(const Square& square, double chance) const {
+  const float unit = 1.0f / float(kSkyParts);
+  const float x0 = float(square.x) * unit, y0 = std::max(float(square.y) * unit, 0.5f);
+  const float x1 = std::min(float(square.x + square.size) * unit, float(sky_.width));
+  const float y1 = std::min(float(square.y + square.size) * unit, float(sky_.height) + 0.5f);
+  SkyBlock block{x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
+  const auto cosine = [&](double y) { return std::sin((y - 0.5) / sky_.height * kPi); };
+  const double least =
+      0.1 * cosine(0.5 * (double(y0) + double(y1)));  // at the poles, too, something is chosen
+  block.upper = float(std::max(least, cosine(double(y0))));
+  block.lower = float(std::max(least, cosine(double(y1))));
+  const double extent = double(block.across) / sky_.width * 2.0 * kPi * double(block.down) / sky_.height *
+                        kPi * 0.5 * (double(block.upper) + double(block.lower));
+  if (extent > 0.0) block.density = float(chance / extent);
+  return block;
+}
+
+/// A row of tiles is chosen by one random number and a block in it by the other: evenly spread pairs choose evenly.
 void Builder::finish() {
   constexpr int kCurveBits = 20;  // 32768 texels and the last row, in parts
-  std::sort(leaves_.begin(), leaves_.end(), [](const Leaf& a, const Leaf& b) {
-    const auto place = [](const Leaf& leaf) {
-      return alongCurve(std::uint32_t(leaf.square.x), std::uint32_t(leaf.square.y), kCurveBits);
+  const int size = kSkyParts << sky_.tile_bits;
+  std::sort(leaves_.begin(), leaves_.end(), [&](const Leaf& a, const Leaf& b) {
+    const auto place = [&](const Leaf& leaf) {
+      const auto [x, y, unused] = leaf.square;
+      return std::tuple(y / size, x / size, alongCurve(std::uint32_t(x), std::uint32_t(y), kCurveBits));
     };
     return place(a) < place(b);
   });
   double total = 0.0;
   for (const Leaf& leaf : leaves_) total += leaf.moments.weight();
-  std::vector<float> weights;
+  const std::size_t rows = sky_.tiles.size() / std::size_t(sky_.tiles_across);
+  std::vector<std::vector<float>> weights(rows);
+  std::vector<float> row_weights(rows);
   for (const Leaf& leaf : leaves_) {
     const double weight = leaf.moments.weight();
-    weights.push_back(weight > 0.0 ? float(std::max(weight, kLeastShare * total)) : 0.0f);
+    const auto row = std::size_t(leaf.square.y / size);
+    weights[row].push_back(weight > 0.0 ? float(std::max(weight, kLeastShare * total)) : 0.0f);
+    row_weights[row] += weights[row].back();
   }
-  const Distribution choice(weights, kChoiceBits);
-  sky_.blocks.clear();
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    const auto& [square, moments, parent] = leaves_[i];
-    entry(parent) = std::int32_t(i);
-    const float unit = 1.0f / float(kSkyParts);
-    const float x0 = float(square.x) * unit, y0 = std::max(float(square.y) * unit, 0.5f);
-    const float x1 = std::min(float(square.x + square.size) * unit, float(sky_.width));
-    const float y1 = std::min(float(square.y + square.size) * unit, float(sky_.height) + 0.5f);
-    const double chance = double(choice.probability(std::uint32_t(i)));
-    sky_.blocks.push_back({x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0),
-                           moments.area > 0.0 ? float(chance / moments.area) : 0.0f});
+  const Distribution row_choice(row_weights, kRowBits);
+  if (row_choice.empty()) return;
+  sky_.row_shift = 32 - kRowBits;
+  sky_.block_shift = 32 - kBlockBits;
+  append(row_choice, sky_.row_starts, sky_.row_first);
+  for (std::size_t row = 0, leaf = 0; row < rows; ++row) {
+    sky_.row_blocks.push_back(std::int32_t(leaf));
+    const Distribution choice(weights[row], kBlockBits);
+    append(choice, sky_.block_starts, sky_.block_first);
+    for (std::size_t i = 0; i < weights[row].size(); ++i, ++leaf) {
+      const double chance =
+          double(row_choice.probability(std::uint32_t(row))) * double(choice.probability(std::uint32_t(i)));
+      entry(leaves_[leaf].parent) = std::int32_t(leaf);
+      sky_.blocks.push_back(blockOf(leaves_[leaf].square, chance));
+    }
   }
-  if (choice.empty()) {
-    sky_.blocks.clear();
-    return;
-  }
-  sky_.shift = 32 - kChoiceBits;
-  sky_.starts.assign(choice.starts().begin(), choice.starts().end());
-  sky_.starts.push_back(0xffffffffu);
-  for (const std::uint32_t i : choice.first()) sky_.first.push_back(std::uint16_t(i));
-  sky_.first.push_back(std::uint16_t(choice.last()));
-  sky_.first.push_back(0);
+  sky_.row_first.push_back(0);
+  sky_.block_first.push_back(0);
 }
 
 void Builder::run() {

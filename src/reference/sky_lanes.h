@@ -10,12 +10,13 @@
 
 namespace gloam::reference {
 
-/// A part of the picture over which directions are spread evenly in longitude and elevation, in cells.
+/// A part of the picture, in cells. Directions are spread in it evenly in longitude, and in elevation as a straight line from
+/// `upper` to `lower` goes, which is nearly the cosine: so nearly evenly in solid angle.
 struct SkyBlock {
   float x = 0.0f, y = 0.0f, across = 0.0f, down = 0.0f;
-  float density =
-      0.0f;  ///< chance of the block / its extent in longitude and elevation; / cos elevation: 1/sr
-  float unused[3] = {};
+  float upper = 0.0f, lower = 0.0f;
+  float density = 0.0f;  ///< times that line, / cos elevation: 1/sr
+  float unused = 0.0f;
 };
 
 /// The least blocks are a sixteenth of a cell each way: the sun of a small picture is one texel.
@@ -28,13 +29,14 @@ struct SkyTable {
   std::vector<glm::vec4> texels;
   float cos_rotation = 1.0f, sin_rotation = 0.0f;
   float turned = 0.5f;  ///< longitude 0 in the picture, as a share of its width
-  /// Neighbours in the list are neighbours in the picture. Few enough for a processor's second cache.
+  /// Row of tiles by row of tiles, in each from left to right. Few enough for a processor's second cache.
   std::vector<SkyBlock> blocks;
-  /// Inverse of the cumulative distribution of blocks (Distribution's; starts closed by the largest number, first by the
-  /// last entry and one more).
-  std::vector<std::uint32_t> starts;
-  std::vector<std::uint16_t> first;
-  int shift = 0;
+  /// Inverses of the cumulative distributions of rows, and of the blocks in each of them, one after another (Distribution's;
+  /// each one's starts closed by the largest number, its first by the last entry, and all by one more).
+  std::vector<std::uint32_t> row_starts, block_starts;
+  std::vector<std::uint16_t> row_first, block_first;
+  int row_shift = 0, block_shift = 0;
+  std::vector<std::int32_t> row_blocks;  ///< first block of each row
   /// The block at a place: a quadtree under each tile of 2^tile_bits cells each way. An entry is a block, or ~ the first of
   /// four entries of `nodes`: upper left, upper right, lower left, lower right.
   int tile_bits = 0, tiles_across = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The sphere is cut into cells between the centres of four texels, in each of which the light is bilinear, and into the
-// blocks of sky_blocks.cpp. A block is chosen by one random number, a place in it by what is left of that and by the other.
+// blocks of sky_blocks.cpp. Two random numbers choose a block, what is left of them a place in it.
 #include "math/simd_targets.h"
 // Highway compiles this file once an instruction set; the order of its headers matters.
 // clang-format off
@@ -52,20 +52,55 @@ HWY_INLINE Range pairOf(const std::vector<std::uint16_t>& table, VI index) {
   return {asInt(hn::And(both, allBits(0xffffu))), asInt(hn::ShiftRight<16>(both))};
 }
 
-// Distribution::choose by halves. `number` is below the largest.
-HWY_INLINE Choice blockOf(const SkyTable& sky, VU number) {
+// Distribution::choose in tables that begin at `base` and `first_base`, by halves. `number` is below the largest.
+HWY_INLINE Choice chooseFrom(const std::vector<std::uint32_t>& starts, VI base,
+                             const std::vector<std::uint16_t>& first, VI first_base, int shift, VU number) {
   const DI di;
   const VI one = hn::Set(di, 1);
-  auto [low, high] = pairOf(sky.first, asInt(hn::ShiftRightSame(number, sky.shift)));
+  auto [low, high] = pairOf(first, hn::Add(first_base, asInt(hn::ShiftRightSame(number, shift))));
+  low = hn::Add(base, low);
+  high = hn::Add(base, high);
   while (!hn::AllFalse(di, hn::Lt(low, high))) {
     const VI middle = hn::ShiftRight<1>(hn::Add(hn::Add(low, high), one));
-    const auto beyond = hn::RebindMask(di, hn::Gt(gather(sky.starts, middle), number));
+    const auto beyond = hn::RebindMask(di, hn::Gt(gather(starts, middle), number));
     low = hn::IfThenElse(beyond, low, middle);
     high = hn::IfThenElse(beyond, hn::Sub(middle, one), high);
   }
-  const VU start = gather(sky.starts, low), next = gather(sky.starts, hn::Add(low, one));
+  const VU start = gather(starts, low), next = gather(starts, hn::Add(low, one));
   const V rest = hn::Div(asFloat(hn::Sub(number, start)), asFloat(hn::Sub(next, start)));
-  return {low, hn::Min(rest, all(0x1.fffffep-1f))};
+  return {hn::Sub(low, base), hn::Min(rest, all(0x1.fffffep-1f))};
+}
+
+struct Chosen {
+  VI block;
+  V x, y;  // what is left of the numbers
+};
+HWY_INLINE Chosen chosenBy(const SkyTable& sky, const Numbers& n) {
+  const DI di;
+  const VU most = allBits(0xfffffffeu);
+  const Choice row = chooseFrom(sky.row_starts, hn::Zero(di), sky.row_first, hn::Zero(di), sky.row_shift,
+                                hn::Min(n.y, most));
+  const VI first = hn::GatherIndex(di, sky.row_blocks.data(), row.index);
+  const VI first_part = hn::Mul(row.index, hn::Set(di, (1 << (32 - sky.block_shift)) + 1));
+  const Choice block = chooseFrom(sky.block_starts, hn::Add(first, row.index), sky.block_first, first_part,
+                                  sky.block_shift, hn::Min(n.x, most));
+  return {hn::Add(first, block.index), block.rest, row.rest};
+}
+
+// Where between 0 and 1 a density that goes linearly from a to b has the share u below it.
+HWY_INLINE V sampleLinear(V a, V b, V u) {
+  const V sum = hn::Add(a, b), root = hn::Sqrt(mix(hn::Mul(a, a), hn::Mul(b, b), u));
+  return hn::Min(hn::Div(hn::Mul(u, sum), hn::Add(a, root)), all(1.0f));
+}
+
+struct Line {
+  V upper, lower, density;
+  V at(V y) const { return hn::Mul(density, mix(upper, lower, y)); }
+};
+HWY_INLINE Line lineOf(const SkyTable& sky, VI block) {
+  const float* line = &sky.blocks[0].upper;
+  return {hn::GatherIndex(D(), line, block), hn::GatherIndex(D(), line + 1, block),
+          hn::GatherIndex(D(), line + 2, block)};
 }
 
 void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& from,
@@ -74,13 +109,14 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
   const float* blocks = &sky.blocks[0].x;
   const V half = all(0.5f), x_scale = all(1.0f / float(sky.width)), y_scale = all(0.5f / float(sky.height));
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-    const Numbers n = numbers(scramble, load(from, i));
-    const Choice chosen = blockOf(sky, hn::Min(n.y, allBits(0xfffffffeu)));
-    const VI block = hn::ShiftLeft<3>(chosen.index);
+    const Chosen chosen = chosenBy(sky, numbers(scramble, load(from, i)));
+    const VI block = hn::ShiftLeft<3>(chosen.block);
     const V x =
-        hn::MulAdd(toUnit(n.x), hn::GatherIndex(d, blocks + 2, block), hn::GatherIndex(d, blocks, block));
+        hn::MulAdd(chosen.x, hn::GatherIndex(d, blocks + 2, block), hn::GatherIndex(d, blocks, block));
+    const Line line = lineOf(sky, block);
+    const V down = sampleLinear(line.upper, line.lower, chosen.y);
     const V y =
-        hn::MulAdd(chosen.rest, hn::GatherIndex(d, blocks + 3, block), hn::GatherIndex(d, blocks + 1, block));
+        hn::MulAdd(down, hn::GatherIndex(d, blocks + 3, block), hn::GatherIndex(d, blocks + 1, block));
     const VI cell_x = clampInt(toInt(x), sky.width - 1), cell_y = clampInt(toInt(y), sky.height);
     const Circle elevation = circle(hn::NegMulAdd(hn::Sub(y, half), y_scale, all(0.25f)));
     const Circle azimuth = circle(hn::MulSub(hn::Sub(x, half), x_scale, half));
@@ -91,7 +127,7 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    store(hn::GatherIndex(d, blocks + 4, block), places.density, i);
+    store(line.at(down), places.density, i);
     store(up, places.cos_elevation, i);
     store(V3{hn::MulAdd(cosine, local_x, hn::Mul(sine, local_z)), elevation.sine,
              hn::NegMulAdd(sine, local_x, hn::Mul(cosine, local_z))},
@@ -123,7 +159,7 @@ HWY_INLINE VI blockAt(const SkyTable& sky, V x, V y) {
 
 void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places) {
   const V one = all(1.0f), width = all(float(sky.width)), height = all(float(sky.height)), half = all(0.5f);
-  const float* densities = &sky.blocks[0].density;
+  const float* blocks = &sky.blocks[0].x;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const V3 to = load(directions, i);
     const V cos_elevation = hn::Sqrt(hn::MulAdd(to.x, to.x, hn::Mul(to.z, to.z)));
@@ -140,7 +176,10 @@ void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& p
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    store(hn::GatherIndex(D(), densities, hn::ShiftLeft<3>(blockAt(sky, x, y))), places.density, i);
+    const VI block = hn::ShiftLeft<3>(blockAt(sky, x, y));
+    const V below = hn::Sub(y, hn::GatherIndex(D(), blocks + 1, block));
+    const V down = hn::Div(below, hn::Max(hn::GatherIndex(D(), blocks + 3, block), all(1e-6f)));
+    store(lineOf(sky, block).at(clampUnit(down)), places.density, i);
     store(cos_elevation, places.cos_elevation, i);
   }
 }

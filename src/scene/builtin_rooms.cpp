@@ -108,10 +108,12 @@ Scene makeCornell(const Detail& detail, NamedValues&) {
   builder.place("floor", wall({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, t, cell, {true, true, true, false}), white);
   builder.place("back wall", wall({-1, 2, -1}, {2, 0, 0}, {0, -2, 0}, t, cell, {true, true, true, true}),
                 white);
-  builder.place("left wall", wall({-1, 2, 1}, {0, 0, -2}, {0, -2, 0}, t, cell, {false, true, true, true}),
-                red);
-  builder.place("right wall", wall({1, 2, -1}, {0, 0, 2}, {0, -2, 0}, t, cell, {true, false, true, true}),
-                green);
+  // The side walls end a hair behind floor and ceiling, whose fronts they would else share; the camera stands a hair beside
+  // the middle, where the edges of the room would pass through centres of pixels.
+  builder.place("left wall",
+                wall({-1, 2, 0.998f}, {0, 0, -1.998f}, {0, -2, 0}, t, cell, {false, true, true, true}), red);
+  builder.place("right wall",
+                wall({1, 2, -1}, {0, 0, 1.998f}, {0, -2, 0}, t, cell, {true, false, true, true}), green);
   builder.place("ceiling", ceilingWithHole(2.0f, 0.3f, t, cell), white);
   builder.place("tall box", standing({0.3f, 0.6f, 0.3f}, 18, cell), white, {-0.36f, 0, -0.32f});
   builder.place("short box", standing({0.29f, 0.29f, 0.29f}, -17, cell), white, {0.36f, 0, 0.3f});
@@ -122,7 +124,7 @@ Scene makeCornell(const Detail& detail, NamedValues&) {
   lamp.inner_cone_rad = 0.4f * kPi;
   lamp.outer_cone_rad = 0.49f * kPi;
   builder.light(lamp, {0, 2.0f, 0});
-  builder.camera({0, 1, 5.4f}, {0, 1, 0}, 27.5f);
+  builder.camera({0.0013f, 1.0021f, 5.4f}, {0.0013f, 1.0021f, 0}, 27.5f);
   builder.sky("mild");
   return builder.finish();
 }

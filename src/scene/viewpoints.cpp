@@ -43,6 +43,7 @@ PosedCamera framingCamera(const PosedScene& posed, float aspect) {
 }
 
 PosedCamera orbit(const PosedCamera& camera, const PosedScene& posed, float angle_rad) {
+  if (angle_rad == 0.0f) return camera;  // to the last bit: references are told apart by their cameras
   const glm::vec3 centre = 0.5f * (posed.bounds_min + posed.bounds_max);
   PosedCamera turned = camera;
   glm::mat4 turn = glm::translate(glm::mat4(1.0f), centre);

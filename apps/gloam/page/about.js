@@ -1,10 +1,10 @@
 // Head of the page, and its end: what was compared, and the commands that repeat it.
 
-/// As the terminal's remark: errors that are noise to a good part. The noise is that of all light: of techniques that
-/// cover less it says nothing.
+/// As the terminal's remark: errors that are noise to a good part. The noise is that of all light: where a technique covers
+/// less, its own is rather more.
 function noiseSentence(ranked) {
   const noise = results.reference.relative_noise;
-  const hidden = ranked.filter(({technique, error}) => noise !== null && technique.leaves_out.length === 0 && Math.sqrt(error) < 1.5 * noise);
+  const hidden = ranked.filter(({error}) => noise !== null && Math.sqrt(error) < 1.5 * noise);
   if (hidden.length === 0) return '';
   return ` The reference’s own noise is ${percent(noise)}, with ${hidden.map(({technique}) => technique.label).join(', ')} not clearly off by more: a reference of more samples tells more.`;
 }
