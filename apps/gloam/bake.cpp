@@ -167,7 +167,9 @@ int runBake(BakeChoice choice, Console& console) {
   TessellateReport split;
   scene = tessellatedAsChosen(std::move(scene), choice.options, choice.surfaces, console, split);
   const BakeEstimate estimate = estimateBake(scene, choice.options);
+  const std::optional<Error> fault = memoryFault(choice.options, estimate);
   if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
+  if (choice.estimate_only && fault) console.remark(fault->what());
   const Json grids =
       estimateNeighbourhoods(scene, carriers, choice.neighbourhood, console, choice.estimate_only);
   const Json clouds = estimateVolumes(scene, choice.volumes, choice.options, console, choice.estimate_only);
@@ -178,7 +180,7 @@ int runBake(BakeChoice choice, Console& console) {
     if (console.json) console.print(jsonText(json));
     return kDone;
   }
-  checkMemory(choice.options, estimate);
+  if (fault) throw *fault;
   choice.options.checkpoint = choice.output + ".checkpoint";
   choice.neighbourhood.options.checkpoint = choice.options.checkpoint;
   console.remark(estimateText(estimate));

@@ -3,6 +3,7 @@
 #include "bake_limits.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <cmath>
@@ -59,13 +60,23 @@ void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& conso
   }
 }
 
-void checkMemory(const BakeOptions& options, const BakeEstimate& estimate) {
-  if (options.memory_bytes == 0 || options.memory_bytes >= estimate.least_memory_bytes) return;
-  throw Error(
-      "--memory",
-      fmt::format("{} are too little: this bake takes {} at least; fewer bands (--order), or no "
-                  "matrices (--glossy off), take less",
-                  bytesText(double(options.memory_bytes)), bytesText(double(estimate.least_memory_bytes))));
+std::size_t memoryOfMachine() {
+  return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
+}
+
+std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate) {
+  const bool capped = options.memory_bytes > 0;
+  const std::size_t most = capped ? options.memory_bytes : memoryOfMachine();
+  if (most >= estimate.least_memory_bytes) return std::nullopt;
+  const std::string least = bytesText(double(estimate.least_memory_bytes)), granted = bytesText(double(most));
+  const char* cure = estimate.texels > estimate.vertices
+                         ? "fewer texels (--texels) or bands (--order) take less"
+                         : "fewer bands (--order), or no matrices (--glossy off), take less";
+  if (!capped)
+    return Error("bake",
+                 fmt::format("takes {} of memory at least, this machine has {}: {}", least, granted, cure));
+  return Error("--memory",
+               fmt::format("{} are too little: this bake takes {} at least; {}", granted, least, cure));
 }
 
 void remarkDirections(const BakeOptions& options, const BakeReport& report, Console& console) {

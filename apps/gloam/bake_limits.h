@@ -6,6 +6,7 @@
 
 #include <gloam/bake.h>
 
+#include <optional>
 #include <string>
 
 #include "arguments.h"
@@ -23,8 +24,10 @@ struct LimitChoice {
 void addLimitOptions(CLI::App& app, BakeOptions& options, LimitChoice& choice);
 /// Takes over what was chosen, and says what has no effect. Throws Error.
 void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& console);
-/// Throws Error where --memory does not suffice.
-void checkMemory(const BakeOptions& options, const BakeEstimate& estimate);
+/// Bytes.
+std::size_t memoryOfMachine();
+/// What is wrong where --memory, or without it the machine's, does not suffice.
+std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate);
 
 /// "512M", "1.5 GiB", "300000000" as bytes. Throws Error.
 std::size_t parseBytes(const std::string& place, const std::string& text);

@@ -3,11 +3,11 @@
 #include "bake_neighbourhood.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "arguments.h"
+#include "bake_limits.h"
 
 namespace gloam::cli {
 namespace {
@@ -44,10 +44,6 @@ glm::ivec3 parseGrid(const std::string& text) {
   glm::ivec3 size;
   for (int c = 0; c < 3; ++c) size[c] = parseInteger(place, parts[std::size_t(c)], {2, 128});
   return size;
-}
-
-std::size_t memoryOfMachine() {
-  return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace

@@ -179,6 +179,7 @@ class Bake(CliTest):
         self.refuse(*command, "--memory", "20M", "-o", "a.glb", says=["--memory", "20 MiB are too little", "MiB at least"])
         for size in "", "0", "12X", "M", "-3M", "1e400":
             self.refuse(*command, f"--memory={size}", "-o", "a.glb", says="--memory")
+        self.refuse("bake", "builtin:gallery", "--texels", "4096", "-o", "a.glb", says=["GiB of memory at least", "this machine has", "--texels"])
         self.assertFalse(self.path("a.glb").exists())
         program = self.peak_bytes("--version")  # with its shared libraries
         for name, cap in ("free.glb", None), ("capped.glb", estimate["least_memory_bytes"] + (4 << 20)):
