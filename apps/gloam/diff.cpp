@@ -186,11 +186,13 @@ void addPictureOptions(CLI::App& app, DiffPictures& pictures) {
 void addBoundOptions(CLI::App& app, DiffChoice& choice) {
   for (const Measure& measure : measureTable()) {
     const std::string name = boundOption(measure);
-    const auto parse = [&choice, name, key = measure.key](const std::string& text) {
-      choice.bounds[key] = parseNumber(name, text, {});
-    };
     const bool size = measure.better == Measure::Better::kNearerZero;
     const bool least = measure.better == Measure::Better::kHigher;
+    Range range;
+    if (!least) range.minimum = 0.0;
+    const auto parse = [&choice, name, range, key = measure.key](const std::string& text) {
+      choice.bounds[key] = parseNumber(name, text, range);
+    };
     app.add_option_function<std::string>(
            name, parse,
            fmt::format("{}{} of at {} X", measure.title, size ? ", gained or lost," : "",

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "arguments.h"
@@ -93,7 +94,12 @@ Image fileMask(const std::string& path) {
   Image mask(image.width, image.height, 1);
   for (std::size_t i = 0; i < mask.pixelCount(); ++i) {
     for (std::size_t c = 0; c < colors; ++c) {
-      if (image.pixels[i * channels + c] != 0.0f) mask.pixels[i] = 1.0f;
+      const float value = image.pixels[i * channels + c];
+      if (!std::isfinite(value)) {
+        const std::size_t x = i % std::size_t(image.width), y = i / std::size_t(image.width);
+        throw Error(path, fmt::format("pixel ({}, {}) of the mask is {}; expected a number", x, y, value));
+      }
+      if (value != 0.0f) mask.pixels[i] = 1.0f;
     }
   }
   return mask;

@@ -154,6 +154,13 @@ class Results(Compared):
         self.assertFalse((self.shared / "given" / "reference.exr").exists())
         self.assertNotIn("cannot be checked", answer.stderr)
 
+    def test_a_reference_from_a_view_of_ones_own(self):
+        view = "builtin:cornell?detail=0.3", "--eye", "0.7,1.3,3.1", "--target", "0.1,0.9,0", "--size", "24x20", "--bounces", "1"
+        traced = self.shared_gloam("reference", *view, "--spp", "2", "--parts", "-o", "view.exr")
+        self.assertEqual(traced.returncode, 0, traced.stderr)
+        answer = self.shared_gloam("compare", *view, "--techniques", "irradiance", "--frames", "1", "--reference", "view.exr", "-o", "viewed")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+
     def given(self, reference, *more, scene="box.glb", light=("--env", "sky:noon")):
         return self.shared_gloam("compare", scene, "--techniques", "irradiance", *light, "--frames", "1", "--reference", reference, *more,
                                  "-o", "other", "--json")

@@ -174,6 +174,7 @@ class Bounds(DiffTest):
         self.assertEqual(len(result.err.splitlines()), 2, str(result))
         self.refuse("diff", "a.exr", "b.exr", "--max-rmse", "much", says=["--max-rmse", "much"])
         self.refuse("diff", "a.exr", "b.exr", "--max-rmse", "nan", says="--max-rmse")
+        self.refuse("diff", "a.exr", "b.exr", "--max-rmse=-1", says=["--max-rmse", "at least 0"])
 
 
 class Pictures(DiffTest):
@@ -242,6 +243,7 @@ class Refused(DiffTest):
         self.refuse_pair("small.exr", "b.exr", ["small.exr", "4x4", "8x4"])
         self.refuse_pair("nan.exr", "b.exr", ["nan.exr", "(3, 1)"])
         self.refuse_pair("a.exr", "nan.exr", ["nan.exr", "(3, 1)"])
+        self.refuse("diff", "a.exr", "b.exr", "--mask", "nan.exr", says=["nan.exr", "(3, 1)", "mask"])
         self.refuse_pair("none.exr", "b.exr", "none.exr")
         self.refuse_pair("a.exr", "none.exr", "none.exr")
         self.refuse_pair("text.exr", "b.exr", "text.exr")
