@@ -3,7 +3,7 @@
 #include "bake_limits.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
+#include <scene/machine_memory.h>
 
 #include <cctype>
 #include <cmath>
@@ -58,10 +58,6 @@ void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& conso
     without(choice.caustics_option, "du");
     without(choice.error_option, "du");
   }
-}
-
-std::size_t memoryOfMachine() {
-  return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
 std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate) {

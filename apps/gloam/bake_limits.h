@@ -24,8 +24,6 @@ struct LimitChoice {
 void addLimitOptions(CLI::App& app, BakeOptions& options, LimitChoice& choice);
 /// Takes over what was chosen, and says what has no effect. Throws Error.
 void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& console);
-/// Bytes.
-std::size_t memoryOfMachine();
 /// What is wrong where --memory, or without it the machine's, does not suffice.
 std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate);
 

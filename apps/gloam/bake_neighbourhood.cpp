@@ -3,11 +3,11 @@
 #include "bake_neighbourhood.h"
 
 #include <fmt/format.h>
+#include <scene/machine_memory.h>
 
 #include <algorithm>
 
 #include "arguments.h"
-#include "bake_limits.h"
 
 namespace gloam::cli {
 namespace {

@@ -3,7 +3,6 @@
 //
 // Ground truth (REF-1): sums of samples of paths, their noise, the checkpoint.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "reference/reference_file.h"
 #include "scene/checkpoint_file.h"
 #include "scene/drawn_fingerprint.h"
+#include "scene/machine_memory.h"
 
 namespace gloam {
 
@@ -63,8 +63,8 @@ PathSums makePathSums(const ReferenceOptions& options, const Integrator& integra
   const std::size_t numbers = 3 * (sums.paths.size() + (sums.positions > 1 ? 3 : 2)) + 2;
   // Besides the sums: layers of geometry, and the picture when it is asked for.
   const double needed = double(pixels) * (8.0 * double(numbers) + 36.0 + 60.0);
-  const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-  if (there > 0.0 && needed > there) {
+  const double there = double(memoryOfMachine());
+  if (needed > there) {
     throw Error("reference", fmt::format("{} x {} pixels need {:.1f} GiB of memory; the machine has {:.1f}",
                                          options.width, options.height, gibibytes(needed), gibibytes(there)));
   }

@@ -5,12 +5,12 @@
 // mathematics.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/sampling.h"
+#include "scene/machine_memory.h"
 #include "scene/threads.h"
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_neighbourhood_field.h"
@@ -89,8 +89,7 @@ NeighbourhoodEstimate estimateOf(const NeighbourhoodObject& object, const Neighb
 }
 
 void refuseWhatIsTooLarge(const NeighbourhoodEstimate& estimate, const NeighbourhoodOptions& options) {
-  std::size_t most = options.memory_bytes;
-  if (most == 0) most = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
+  const std::size_t most = options.memory_bytes > 0 ? options.memory_bytes : memoryOfMachine();
   if (estimate.memory_bytes <= most) return;
   throw Error("neighbourhood",
               fmt::format("a grid of {} x {} x {} points takes {} MiB, there are {} MiB: take fewer points "

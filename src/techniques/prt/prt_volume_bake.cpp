@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <gloam/sh.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +18,7 @@
 #include <optional>
 
 #include "math/sampling.h"
+#include "scene/machine_memory.h"
 #include "scene/threads.h"
 #include "scene/transforms.h"
 #include "scene/volume_places.h"
@@ -234,8 +234,7 @@ std::size_t memoryOf(const Volume& volume, std::size_t filled, const VolumeBakeO
 }
 
 void refuseWhatIsTooLarge(const VolumeEstimate& estimate, const VolumeBakeOptions& options) {
-  std::size_t most = options.memory_bytes;
-  if (most == 0) most = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
+  const std::size_t most = options.memory_bytes > 0 ? options.memory_bytes : memoryOfMachine();
   if (estimate.memory_bytes > most)
     throw Error("volumes",
                 fmt::format("the largest takes {} MiB to bake, {} MiB are granted: take fewer voxels or a "
