@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "image/atomic_file.h"
+#include "scene/half_float.h"
 
 namespace gloam {
 namespace {
@@ -87,12 +88,20 @@ int GlbBuilder::addFloats(std::span<const float> values, int components, Target 
 }
 
 int GlbBuilder::addBytes(std::span<const std::uint8_t> values, int components, Target target) {
-  return addAccessor(addView(values, target), kUnsignedByte, values.size() / std::size_t(components), components);
+  return addAccessor(addView(values, target), kUnsignedByte, values.size() / std::size_t(components),
+                     components);
 }
 
 int GlbBuilder::addShorts(std::span<const std::uint16_t> values, int components, Target target) {
   return addAccessor(addView(bytesOf(values), target), kUnsignedShort,
                      values.size() / std::size_t(components), components);
+}
+
+int GlbBuilder::addNumbers(std::span<const float> values, bool half_float) {
+  if (!half_float) return addFloats(values, 1, Target::kNone);
+  std::vector<std::uint16_t> halves(values.size());
+  std::ranges::transform(values, halves.begin(), halfFromFloat);
+  return addShorts(halves, 1, Target::kNone);
 }
 
 int GlbBuilder::addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count) {

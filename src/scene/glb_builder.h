@@ -32,6 +32,8 @@ class GlbBuilder {
   int addFloats(std::span<const float> values, int components, Target target, bool bounds = false);
   int addBytes(std::span<const std::uint8_t> values, int components, Target target);
   int addShorts(std::span<const std::uint16_t> values, int components, Target target);
+  /// Single numbers that no primitive uses, as floats or as 16-bit floats (of which 65504 is the largest) in shorts.
+  int addNumbers(std::span<const float> values, bool half_float);
   /// 16 bits an index where that suffices.
   int addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
   /// Zeros, which take no bytes.

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "scene/builtin_scenes.h"
+#include "scene/glb_test_file.h"
 #include "scene/half_float.h"
 
 namespace gloam {
@@ -43,44 +43,16 @@ fs::path temporary() {
   return fs::temp_directory_path() / "gloam_neighbourhood_test.glb";
 }
 
-struct Glb {
-  Json json;
-  std::string binary;
+struct Glb : test::GlbChunks {
   Json& extension() { return json["nodes"][0]["extensions"][kNeighbourhoodExtension]; }
 };
-
-Glb readGlb() {
-  std::ifstream file(temporary(), std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, 4);
-  return {Json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
-}
-
-void writeAgain(const Glb& glb) {
-  std::string text = glb.json.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::ofstream file(temporary(), std::ios::binary);
-  const auto word = [&](std::size_t value) {
-    const std::uint32_t w = std::uint32_t(value);
-    file.write(reinterpret_cast<const char*>(&w), 4);
-  };
-  file.write("glTF", 4);
-  word(2);
-  word(12 + 8 + text.size() + 8 + glb.binary.size());
-  word(text.size());
-  file << "JSON" << text;
-  word(glb.binary.size());
-  file.write("BIN\0", 4);
-  file << glb.binary;
-}
 
 /// Writes a grid, breaks it, and gives what the reader says.
 std::string messageAfter(const std::function<void(Glb&)>& breakIt, int bounces = 1) {
   writeGlb(carryingScene(bounces), temporary());
-  Glb glb = readGlb();
+  Glb glb{test::readGlbChunks(temporary())};
   breakIt(glb);
-  writeAgain(glb);
+  test::writeGlbChunks(glb, temporary());
   std::string message = "no error";
   try {
     loadScene(temporary().string());

@@ -10,9 +10,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/gltf_extension_reader.h"
 #include "scene/gltf_transfer_pca.h"
-#include "scene/gltf_transfer_reader.h"
-#include "scene/half_float.h"
 
 namespace gloam {
 namespace {
@@ -40,14 +39,6 @@ std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size) {
 }
 
 }  // namespace
-
-int addTransferNumbers(const std::vector<float>& values, bool half_float, GlbBuilder& builder) {
-  if (!half_float) return builder.addFloats(values, 1, GlbBuilder::Target::kNone);
-  std::vector<std::uint16_t> halves;
-  halves.reserve(values.size());
-  for (const float value : values) halves.push_back(halfFromFloat(value));
-  return builder.addShorts(halves, 1, GlbBuilder::Target::kNone);
-}
 
 std::string geometryChecksum(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
   static_assert(sizeof(glm::vec3) == 12);
@@ -80,9 +71,8 @@ Json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, G
     json["version"] = kVersionOfPca;
     json["pca"] = pcaJson(*transfer.compressed, half_float, builder);
   } else {
-    json["direct"] = addTransferNumbers(transfer.direct, half_float, builder);
-    if (!transfer.indirect.empty())
-      json["indirect"] = addTransferNumbers(transfer.indirect, half_float, builder);
+    json["direct"] = builder.addNumbers(transfer.direct, half_float);
+    if (!transfer.indirect.empty()) json["indirect"] = builder.addNumbers(transfer.indirect, half_float);
   }
   if (transfer.ofTexels()) {
     json["texels"] = {{"width", transfer.texel_width},
@@ -94,16 +84,15 @@ Json transferJson(const Transfer& transfer, const Mesh& mesh, bool half_float, G
   if (glossy.empty()) return json;
   json["glossy"] = {{"lightOrder", glossy.light_order},
                     {"fieldOrder", glossy.field_order},
-                    {"visibility", addTransferNumbers(glossy.visibility, half_float, builder)}};
-  if (!glossy.indirect.empty())
-    json["glossy"]["indirect"] = addTransferNumbers(glossy.indirect, half_float, builder);
+                    {"visibility", builder.addNumbers(glossy.visibility, half_float)}};
+  if (!glossy.indirect.empty()) json["glossy"]["indirect"] = builder.addNumbers(glossy.indirect, half_float);
   if (glossy.exponent > 0.0f) json["glossy"]["exponent"] = tidy(glossy.exponent);
   return json;
 }
 
 static GlossyTransfer readGlossy(GltfAccessors& accessors, const Json& json, const std::string& where,
                                  std::size_t vertices, bool half_float, bool has_bounces) {
-  const TransferReader reader(accessors, json, where);
+  const ExtensionReader reader(accessors, json, where);
   GlossyTransfer glossy;
   glossy.field_order = reader.integer("fieldOrder", 1, sh::kMaxOrder);
   glossy.light_order = reader.integer("lightOrder", 1, glossy.field_order);
@@ -121,7 +110,7 @@ static GlossyTransfer readGlossy(GltfAccessors& accessors, const Json& json, con
 static void readTexels(GltfAccessors& accessors, const Json& json, const std::string& where,
                        const UvSet& uvSet, Transfer& transfer) {
   constexpr int kMostTexels = 65536;
-  const TransferReader reader(accessors, json, where);
+  const ExtensionReader reader(accessors, json, where);
   transfer.texel_width = reader.integer("width", 1, kMostTexels);
   transfer.texel_height = reader.integer("height", 1, kMostTexels);
   transfer.uv_set = reader.integer("texCoord", 0, 7);
@@ -139,7 +128,7 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
                                              std::span<const glm::vec3> positions,
                                              std::span<const std::uint32_t> indices, const UvSet& uvSet,
                                              const std::string& where) {
-  const TransferReader reader(accessors, extension, where);
+  const ExtensionReader reader(accessors, extension, where);
   const int version = reader.integer("version", 1, 0x7fffffff);
   if (version > kVersionOfPca)
     reader.fail("version",
@@ -153,10 +142,7 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
   const Json kind = extension.value("kind", Json());
   if (kind == kUnshadowed && transfer->bounces == 0) transfer->directions = 0;
   if (kind == kShadowed) transfer->directions = std::max(transfer->directions, 1);
-  const std::string format = reader.word("format");
-  if (format != "float" && format != "half") {
-    reader.fail("format", "neither \"float\" nor \"half\"");
-  }
+  const bool half_float = reader.halfFloat();
   const std::string checksum = geometryChecksum(positions, indices);
   if (reader.word("geometry") != checksum) {
     reader.fail("geometry",
@@ -169,18 +155,18 @@ std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Jso
                                  : positions.size();
   const std::size_t count = points * std::size_t(transfer->order * transfer->order);
   if (version >= kVersionOfPca && reader.has("pca")) {
-    readPca(accessors, extension.at("pca"), where + ".pca", points, format == "half", *transfer);
+    readPca(accessors, extension.at("pca"), where + ".pca", points, half_float, *transfer);
   } else {
-    transfer->direct = reader.numbers("direct", count, format == "half");
+    transfer->direct = reader.numbers("direct", count, half_float);
     if (transfer->bounces > 0) {
-      transfer->indirect = reader.numbers("indirect", 3 * count, format == "half");
+      transfer->indirect = reader.numbers("indirect", 3 * count, half_float);
     } else if (reader.has("indirect")) {
       reader.fail("indirect", "there are no bounces");
     }
   }
   if (reader.has("glossy")) {
     transfer->glossy = readGlossy(accessors, extension.at("glossy"), where + ".glossy", positions.size(),
-                                  format == "half", transfer->bounces > 0);
+                                  half_float, transfer->bounces > 0);
   }
   return transfer;
 }

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gltf_transfer_pca.h"
 
-#include "scene/gltf_transfer_reader.h"
+#include "scene/gltf_extension_reader.h"
 
 namespace gloam {
 
 nlohmann::json pcaJson(const CompressedTransfer& compressed, bool half_float, GlbBuilder& builder) {
   nlohmann::json json = {{"clusters", compressed.clusters},
                          {"vectors", compressed.vectors},
-                         {"means", addTransferNumbers(compressed.means, half_float, builder)}};
+                         {"means", builder.addNumbers(compressed.means, half_float)}};
   if (compressed.vectors > 0) {
-    json["basis"] = addTransferNumbers(compressed.basis, half_float, builder);
-    json["weights"] = addTransferNumbers(compressed.weights, half_float, builder);
+    json["basis"] = builder.addNumbers(compressed.basis, half_float);
+    json["weights"] = builder.addNumbers(compressed.weights, half_float);
   }
   if (compressed.clusters <= 256) {
     const std::vector<std::uint8_t> bytes(compressed.cluster.begin(), compressed.cluster.end());
@@ -25,7 +25,7 @@ nlohmann::json pcaJson(const CompressedTransfer& compressed, bool half_float, Gl
 
 void readPca(GltfAccessors& accessors, const nlohmann::json& json, const std::string& where,
              std::size_t points, bool half_float, Transfer& transfer) {
-  const TransferReader reader(accessors, json, where);
+  const ExtensionReader reader(accessors, json, where);
   auto compressed = std::make_shared<CompressedTransfer>();
   const auto direct = std::size_t(transfer.order * transfer.order);
   const std::size_t width = transfer.bounces > 0 ? 4 * direct : direct;

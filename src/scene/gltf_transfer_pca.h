@@ -21,7 +21,4 @@ void readPca(GltfAccessors& accessors, const nlohmann::json& json, const std::st
 std::shared_ptr<const CompressedTransfer> pcaOfPoints(const CompressedTransfer& compressed,
                                                       std::span<const std::uint32_t> points);
 
-/// Appends numbers of transfer, as floats or halves; the accessor's index.
-int addTransferNumbers(const std::vector<float>& values, bool half_float, GlbBuilder& builder);
-
 }  // namespace gloam

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "scene/builtin_scenes.h"
+#include "scene/glb_test_file.h"
 #include "scene/half_float.h"
 
 namespace gloam {
@@ -71,36 +72,7 @@ fs::path temporary() {
   return fs::temp_directory_path() / "gloam_transfer_test.glb";
 }
 
-struct Glb {
-  Json json;
-  std::string binary;
-};
-
-Glb readGlb(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, 4);
-  return {Json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
-}
-
-void writeGlb(const Glb& glb, const fs::path& path) {
-  std::string text = glb.json.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::ofstream file(path, std::ios::binary);
-  const auto word = [&](std::size_t value) {
-    const std::uint32_t w = std::uint32_t(value);
-    file.write(reinterpret_cast<const char*>(&w), 4);
-  };
-  file.write("glTF", 4);
-  word(2);
-  word(12 + 8 + text.size() + 8 + glb.binary.size());
-  word(text.size());
-  file << "JSON" << text;
-  word(glb.binary.size());
-  file.write("BIN\0", 4);
-  file << glb.binary;
-}
+using Glb = test::GlbChunks;
 
 Json& extensionOf(Glb& glb) {
   return glb.json["meshes"][0]["primitives"][0]["extensions"][kTransferExtension];
@@ -109,9 +81,9 @@ Json& extensionOf(Glb& glb) {
 /// Writes a baked scene, breaks it, and gives what the reader says.
 std::string messageAfter(const std::function<void(Glb&)>& breakIt, const Scene& scene = bakedScene(2)) {
   gloam::writeGlb(scene, temporary());
-  Glb glb = readGlb(temporary());
+  Glb glb = test::readGlbChunks(temporary());
   breakIt(glb);
-  writeGlb(glb, temporary());
+  test::writeGlbChunks(glb, temporary());
   std::string message = "no error";
   try {
     loadScene(temporary().string());
@@ -210,7 +182,7 @@ TEST(Transfer, TexelsComeBack) {
   for (const bool half_float : {false, true}) {
     const Scene scene = texelScene();
     gloam::writeGlb(scene, temporary(), {half_float});
-    Glb glb = readGlb(temporary());
+    Glb glb = test::readGlbChunks(temporary());
     EXPECT_EQ(extensionOf(glb)["version"], 2) << "older readers know no texels";
     const Scene again = loadScene(temporary().string());
     fs::remove(temporary());
@@ -228,7 +200,7 @@ TEST(Transfer, TexelsComeBack) {
   }
   Scene vertices = bakedScene(0);
   gloam::writeGlb(vertices, temporary());
-  Glb glb = readGlb(temporary());
+  Glb glb = test::readGlbChunks(temporary());
   EXPECT_EQ(extensionOf(glb)["version"], 1);
   fs::remove(temporary());
 }

@@ -4,9 +4,10 @@
 
 #include <gloam/sh.h>
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "scene/gltf_transfer_reader.h"
+#include "scene/gltf_extension_reader.h"
 #include "scene/volume_places.h"
 
 namespace gloam {
@@ -14,21 +15,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kVersion = 1, kMostVoxels = 65536;  // a side
-
-int addNumbers(const std::vector<float>& values, bool half_float, GlbBuilder& builder) {
-  if (!half_float) return builder.addFloats(values, 1, GlbBuilder::Target::kNone);
-  std::vector<std::uint16_t> halves(values.size());
-  std::ranges::transform(values, halves.begin(), halfFromFloat);
-  return builder.addShorts(halves, 1, GlbBuilder::Target::kNone);
-}
+constexpr int kVersion = 1, kMostVoxels = 65536;             // a side
+constexpr double kAny = std::numeric_limits<double>::max();  // checkVolume says what is too much
 
 Json transferJson(const Transfer& transfer, bool half_float, GlbBuilder& builder) {
   Json json = {{"order", transfer.order},
                {"bounces", transfer.indirect.empty() ? 0 : transfer.bounces},
                {"directions", transfer.directions},
-               {"direct", addNumbers(transfer.direct, half_float, builder)}};
-  if (!transfer.indirect.empty()) json["indirect"] = addNumbers(transfer.indirect, half_float, builder);
+               {"direct", builder.addNumbers(transfer.direct, half_float)}};
+  if (!transfer.indirect.empty()) json["indirect"] = builder.addNumbers(transfer.indirect, half_float);
   return json;
 }
 
@@ -40,28 +35,15 @@ Json volumeJson(const Volume& volume, bool half_float, GlbBuilder& builder) {
                {"boundsMax", tidyArray(volume.bounds_max, 3)},
                {"albedo", tidyArray(volume.albedo, 3)},
                {"asymmetry", tidy(volume.asymmetry)},
-               {"density", addNumbers(volume.density, half_float, builder)}};
+               {"density", builder.addNumbers(volume.density, half_float)}};
   if (!volume.name.empty()) json["name"] = volume.name;
   if (volume.transfer) json["transfer"] = transferJson(*volume.transfer, half_float, builder);
   return json;
 }
 
-glm::vec3 triple(GltfDocument& document, const Json& json, const char* name, const std::string& where) {
-  const auto found = json.find(name);
-  if (found == json.end()) document.fail(where + "." + name, "missing");
-  glm::vec3 v(0.0f);
-  const bool three = found->is_array() && found->size() == 3;
-  for (int c = 0; c < 3; ++c) {
-    if (!three || !(*found)[std::size_t(c)].is_number())
-      document.fail(where + "." + name, "three numbers were expected");
-    v[c] = (*found)[std::size_t(c)].get<float>();
-  }
-  return v;
-}
-
 std::shared_ptr<const Transfer> readTransfer(GltfAccessors& accessors, const Json& json,
                                              const std::string& where, std::size_t voxels, bool half_float) {
-  const TransferReader reader(accessors, json, where);
+  const ExtensionReader reader(accessors, json, where);
   auto transfer = std::make_shared<Transfer>();
   transfer->order = reader.integer("order", 1, sh::kMaxOrder);
   transfer->bounces = reader.integer("bounces", 0, 1000000);
@@ -89,35 +71,33 @@ void writeVolumes(const Scene& scene, bool half_float, GlbBuilder& builder) {
 
 std::shared_ptr<const Volume> readVolume(GltfAccessors& accessors, const Json& extension,
                                          const std::string& where) {
-  const TransferReader reader(accessors, extension, where);
+  const ExtensionReader reader(accessors, extension, where);
   GltfDocument& document = accessors.document();
   const int version = reader.integer("version", 1, 0x7fffffff);
   if (version != kVersion)
     reader.fail("version", fmt::format("{} is not known; {} is read", version, kVersion));
-  const std::string format = reader.word("format");
-  if (format != "float" && format != "half") reader.fail("format", "neither \"float\" nor \"half\"");
+  const bool half_float = reader.halfFloat();
   auto volume = std::make_shared<Volume>();
   if (reader.has("name")) volume->name = reader.word("name");
-  const glm::vec3 size = triple(document, extension, "size", where);
+  const glm::vec3 size = reader.vector("size", -kAny, kAny);
   for (int c = 0; c < 3; ++c) {
     if (!(size[c] >= 2.0f && size[c] <= float(kMostVoxels)) || size[c] != std::floor(size[c]))
       reader.fail("size", fmt::format("{} is not a whole number from 2 to {}", size[c], kMostVoxels));
     volume->size[c] = int(size[c]);
   }
-  volume->bounds_min = triple(document, extension, "boundsMin", where);
-  volume->bounds_max = triple(document, extension, "boundsMax", where);
-  volume->albedo = triple(document, extension, "albedo", where);
-  if (!reader.has("asymmetry")) reader.fail("asymmetry", "missing");
+  volume->bounds_min = reader.vector("boundsMin", -kAny, kAny);
+  volume->bounds_max = reader.vector("boundsMax", -kAny, kAny);
+  volume->albedo = reader.vector("albedo", -kAny, kAny);
   volume->asymmetry = reader.number("asymmetry", -1.0f, 1.0f);
-  volume->density = reader.numbers("density", volume->voxels(), format == "half");
+  volume->density = reader.numbers("density", volume->voxels(), half_float);
   try {
     checkVolume(*volume, where);
   } catch (const Error& error) {
     throw Error(document.place(), error.what());
   }
   if (reader.has("transfer"))
-    volume->transfer = readTransfer(accessors, extension["transfer"], where + ".transfer", volume->voxels(),
-                                    format == "half");
+    volume->transfer =
+        readTransfer(accessors, extension["transfer"], where + ".transfer", volume->voxels(), half_float);
   return volume;
 }
 

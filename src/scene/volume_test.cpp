@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/builtin_scenes.h"
+#include "scene/glb_test_file.h"
 #include "scene/gltf_volume.h"
 #include "scene/half_float.h"
 #include "scene/volume_files.h"
@@ -100,9 +101,7 @@ TEST(VolumeFile, ComesBackExactlyAsFloatsAndRoundedAsHalves) {
   fs::remove(path);
 }
 
-struct Glb {
-  Json json;
-  std::string binary;
+struct Glb : test::GlbChunks {
   Json& extension() { return json["nodes"][0]["extensions"][kVolumeExtension]; }
   char* numbers(const char* name) {
     const Json& accessor = json["accessors"][extension()[name].get<std::size_t>()];
@@ -115,28 +114,9 @@ struct Glb {
 std::string messageAfter(const std::function<void(Glb&)>& breakIt) {
   const fs::path path = temporary("gloam_volume_broken.glb");
   writeGlb(carryingScene(1), path);
-  std::ifstream in(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, 4);
-  Glb glb{Json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
+  Glb glb{test::readGlbChunks(path)};
   breakIt(glb);
-  std::string text = glb.json.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::ofstream out(path, std::ios::binary);
-  const auto word = [&](std::size_t value) {
-    const std::uint32_t w = std::uint32_t(value);
-    out.write(reinterpret_cast<const char*>(&w), 4);
-  };
-  out << "glTF";
-  word(2);
-  word(28 + text.size() + glb.binary.size());
-  word(text.size());
-  out << "JSON" << text;
-  word(glb.binary.size());
-  out.write("BIN\0", 4);
-  out << glb.binary;
-  out.close();
+  test::writeGlbChunks(glb, path);
   const std::string message = messageOf(path.string());
   fs::remove(path);
   return message;

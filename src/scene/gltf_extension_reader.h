@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What the parts of GLOAM_precomputed_transfer are read with.
+// What the objects of our own glTF extensions are read with.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,37 +9,54 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/gltf_transfer.h"
+#include "scene/gltf_accessors.h"
 #include "scene/half_float.h"
 
 namespace gloam {
 
 /// Members of the extension's object, each checked as it is taken.
-class TransferReader {
+class ExtensionReader {
  public:
-  TransferReader(GltfAccessors& accessors, const nlohmann::json& json, const std::string& where)
+  ExtensionReader(GltfAccessors& accessors, const nlohmann::json& json, const std::string& where)
       : accessors_(accessors), document_(accessors.document()), json_(json), where_(where) {
     if (!json.is_object()) document_.fail(where, "an object was expected");
   }
 
-  int integer(const char* name, int least, int most) const {
-    const auto found = json_.find(name);
-    if (found == json_.end()) fail(name, "missing");
-    if (!found->is_number_integer() || *found < least || *found > most) {
-      fail(name, fmt::format("{} is not a whole number from {} to {}", shortText(*found), least, most));
-    }
-    return found->get<int>();
-  }
+  int integer(const char* name, int least, int most) const { return whole(member(name), name, least, most); }
 
   std::string word(const char* name) const {
-    const auto found = json_.find(name);
-    if (found == json_.end()) fail(name, "missing");
-    if (!found->is_string()) fail(name, fmt::format("{} is not a string", shortText(*found)));
-    return found->get<std::string>();
+    const nlohmann::json& value = member(name);
+    if (!value.is_string()) fail(name, fmt::format("{} is not a string", shortText(value)));
+    return value.get<std::string>();
+  }
+
+  /// "format": whether numbers are stored as halves.
+  bool halfFloat() const {
+    const std::string format = word("format");
+    if (format != "float" && format != "half") fail("format", "neither \"float\" nor \"half\"");
+    return format == "half";
+  }
+
+  /// An array of three.
+  glm::ivec3 integers(const char* name, int least, int most) const {
+    const nlohmann::json& array = triple(name);
+    return {whole(array[0], name, least, most), whole(array[1], name, least, most),
+            whole(array[2], name, least, most)};
+  }
+  glm::vec3 vector(const char* name, double least = -1e12, double most = 1e12) const {
+    const nlohmann::json& array = triple(name);
+    glm::vec3 v;
+    for (int c = 0; c < 3; ++c) {
+      const nlohmann::json& value = array[std::size_t(c)];
+      if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
+        fail(name, fmt::format("{} is not a number from {} to {}", shortText(value), least, most));
+      v[c] = value.get<float>();
+    }
+    return v;
   }
 
   float number(const char* name, float least, float most) const {
-    const nlohmann::json& value = json_.at(name);
+    const nlohmann::json& value = member(name);
     if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most)) {
       fail(name, fmt::format("{} is not a number from {} to {}", shortText(value), least, most));
     }
@@ -101,6 +118,21 @@ class TransferReader {
   }
 
  private:
+  const nlohmann::json& member(const char* name) const {
+    const auto found = json_.find(name);
+    if (found == json_.end()) fail(name, "missing");
+    return *found;
+  }
+  const nlohmann::json& triple(const char* name) const {
+    const nlohmann::json& array = member(name);
+    if (!array.is_array() || array.size() != 3) fail(name, "three numbers were expected");
+    return array;
+  }
+  int whole(const nlohmann::json& value, const char* name, int least, int most) const {
+    if (!value.is_number_integer() || value < least || value > most)
+      fail(name, fmt::format("{} is not a whole number from {} to {}", shortText(value), least, most));
+    return value.get<int>();
+  }
   int accessor(const char* name) const {
     const std::size_t accessors = document_.array("accessors").size();
     if (accessors == 0) fail(name, "the file has no accessors");
