@@ -6,6 +6,11 @@
 # with the Vulkan validation layer on.
 set_property(GLOBAL PROPERTY GLOAM_ROOMS "")
 
+# For what calls the library and is never hot itself: a third less time to compile.
+function(gloam_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:Release>>:-O1>)
+endfunction()
+
 function(gloam_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;SHADERS;DEPENDS;LIBRARIES;TESTS;TEST_SHADERS;TEST_DEPENDS" ${ARGN})
   add_library(gloam_${name} STATIC ${ROOM_SOURCES})
@@ -21,6 +26,7 @@ function(gloam_room name)
   if(GLOAM_BUILD_TESTS AND ROOM_TESTS)
     add_executable(${name}_test ${ROOM_TESTS})
     target_link_libraries(${name}_test PRIVATE gloam_${name} GTest::gtest GTest::gtest_main)
+    gloam_compile_quickly(${name}_test)
     foreach(dependency IN LISTS ROOM_TEST_DEPENDS)
       target_link_libraries(${name}_test PRIVATE gloam_${dependency})
     endforeach()

@@ -94,7 +94,7 @@ Rounds measureRounds(BenchStage& stage, const BenchChoice& choice, Console& cons
     for (int v = 0; v < kVariants; ++v) {
       if (interrupted()) throw Interrupted("interrupted: no figures");
       const Variant& variant = variants()[std::size_t(v)];
-      progress.report((double(round + 1) + double(v) / kVariants) / double(all), variant.name);
+      progress.report((double(round + 1) + double(v) / double(kVariants)) / double(all), variant.name);
       RenderOptions options = stage.options;
       for (const auto& [name, value] : variant.settings) options.settings.set(name, value);
       if (variant.vertices) {

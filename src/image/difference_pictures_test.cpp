@@ -73,7 +73,9 @@ TEST(FalseColor, MapsRiseEvenly) {
   for (int i = 0; i <= 50; ++i) {
     const double y = double(luminance(errorColor(float(i) / 50.0f)));
     const double lightness = y > 0.008856 ? 116.0 * std::cbrt(y) - 16.0 : 903.3 * y;
-    if (i > 0) EXPECT_NEAR(lightness - before, 96.0 / 50.0, 0.1) << i;
+    if (i > 0) {
+      EXPECT_NEAR(lightness - before, 96.0 / 50.0, 0.1) << i;
+    }
     before = lightness;
   }
   EXPECT_EQ(errorColor(0.0f), glm::vec3(0.0f));
