@@ -103,7 +103,6 @@ MaterialRow rowOf(const Material& material) {
   row.metallic = material.metallic;
   row.roughness = material.roughness;
   row.specular = material.specular;
-  row.specular = material.specular;
   row.normal_scale = material.normal_scale;
   row.alpha_cutoff = material.alpha_cutoff;
   row.flags = material.normal_map ? kMaterialNormalMap : 0u;

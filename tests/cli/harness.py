@@ -8,9 +8,11 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
 GLOAM = os.environ["GLOAM"]
@@ -70,6 +72,26 @@ class CliTest(unittest.TestCase):
             self.assertIn(str(word), lines[0], str(result))
         self.assertEqual(self.listing(), before, f"a file was left behind by\n{result}")
         return lines[0]
+
+    def interrupt(self, *command, output, how=signal.SIGINT):
+        """Starts again and again until the signal falls into the middle of the work, so that `output` has a checkpoint but is
+        not there; what it said then."""
+        checkpoint = self.path(output + ".checkpoint")
+        delay_s = 0.3
+        for _ in range(12):
+            process = subprocess.Popen([GLOAM, *map(str, command)], cwd=self.folder, env=self.environment,
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(delay_s)
+            sent = time.monotonic()
+            process.send_signal(how)
+            err = process.communicate(timeout=60)[1]
+            if process.returncode == 1 and checkpoint.exists():
+                self.assertLess(time.monotonic() - sent, 10)
+                self.assertFalse(self.path(output).exists())
+                return err
+            delay_s *= 0.7 if process.returncode == 0 else 1.3
+            self.path(output).unlink(missing_ok=True)
+        self.fail(f"never interrupted in the middle; the last time: exit {process.returncode}, {err}")
 
     def listing(self):
         """Names and sizes of all files of the test's folder; the cache may grow."""
