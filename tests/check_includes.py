@@ -29,7 +29,7 @@ ALLOWED = {
     "renderer": TECHNIQUE_SIDE | {"techniques"},
 }
 # Public headers are the declarations of rooms. error.h is everyone's; renderer.h declares options, which techniques fill.
-PUBLIC_ROOM = {"error.h": None, "sh.h": "math", "image.h": "image", "scene.h": "scene", "bake.h": None, "metrics.h": "image", "reference.h": "reference", "spheres.h": "spheres", "neighbourhood.h": "scene", "volume.h": "scene", "lights.h": "scene", "compress.h": "scene", "renderer.h": None}
+PUBLIC_ROOM = {"error.h": None, "sh.h": "math", "image.h": "image", "scene.h": "scene", "bake.h": None, "metrics.h": "image", "reference.h": "reference", "spheres.h": "spheres", "spherical_lights.h": None, "neighbourhood.h": "scene", "volume.h": "scene", "lights.h": "scene", "compress.h": "scene", "renderer.h": None}
 # Libraries that only one room may include.
 ONLY_IN = [(re.compile(r"embree[34]?/"), {"trace"}), (re.compile(r"(volk\.h|vulkan/)"), {"gpu"})]
 

@@ -18,6 +18,7 @@
 namespace gloam {
 
 struct SceneSpheres;
+struct SceneEmission;
 
 // ---- Options --------------------------------------------------------------------------------------------------------
 
@@ -59,6 +60,7 @@ struct TechniqueInfo {
   std::span<const Option> options;
   bool needs_bake = false;     ///< renders only scenes whose meshes carry Transfer
   bool needs_spheres = false;  ///< renders only with Renderer::setSpheres; its option "spheres" says how many
+  bool needs_emission = false;  ///< besides: renders only with Renderer::setEmission
   Coverage (*covers_with)(const Settings&) = nullptr;  ///< where options change `covers`, which holds by default
 };
 /// The light that a technique computes with these options of its own.
@@ -116,6 +118,12 @@ struct RenderedFrame {
   Warnings warnings;             ///< what this frame left out or made smaller, one line each
 };
 
+/// Device memory of one thing: "frame.environment", "prt.transfer".
+struct MemoryUse {
+  std::string name;
+  std::size_t bytes = 0;
+};
+
 /// The frame's light as a display shows it: R, G, B, A in linear 0 to 1, as writePng takes it.
 Image toDisplay(const LayeredImage& layers, const DisplayOptions& options);
 
@@ -135,6 +143,9 @@ class Renderer {
   /// Sphere sets (gloam/spheres.h) of the scene that was set, for techniques that need them; setScene() forgets them.
   /// Throws Error where no scene was set or the sets belong to another.
   void setSpheres(const Scene& scene, const SceneSpheres& spheres);
+  /// What the spheres that were set send (gloam/spherical_lights.h), for techniques that need it; setSpheres() and setScene()
+  /// forget it. Throws Error where no spheres were set or it belongs to others.
+  void setEmission(const Scene& scene, const SceneEmission& emission);
   /// Distant light in place of the scene's own. An empty environment means no light from afar.
   void setEnvironment(const Environment& environment);
 
@@ -146,6 +157,7 @@ class Renderer {
   std::vector<std::string> imageNames() const;
 
   DeviceInfo device() const;
+  std::vector<MemoryUse> memory() const;  ///< everything held on the device, the largest first
   int validationMessages() const;  ///< with GLOAM_VALIDATION=1
 
  private:

@@ -81,6 +81,7 @@ struct PosedSphere {
   float radius = 0.0f;
   int set = 0, sphere = 0;  ///< sets[set].spheres[sphere]
   int instance = 0;         ///< of PosedScene::instances: the first mesh of the object that it stands for
+  glm::mat3 world_from_shape{1.0f};  ///< orthogonal: how directions of the set's shape space have turned
 };
 
 /// All spheres where the objects are. Rigid: by the matrix, radii by its greatest stretch, so that they go on bounding. Skinned

@@ -20,6 +20,7 @@ struct FrameOptions {
   bool layers = true;  ///< normal, depth, albedo, object besides the light
   bool motion = false;
   std::span<const Proxy> proxies = {};  ///< for techniques that take spheres in place of what moves
+  const Emission* emission = nullptr;   ///< what these send
 };
 
 /// What one frame leaves to the next.

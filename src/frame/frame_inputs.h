@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 
+#include "frame/emission.h"
 #include "frame/environment_light.h"
 #include "frame/gbuffer.h"
 #include "frame/proxy.h"
@@ -25,6 +26,7 @@ struct FrameInputs {
   gpu::BufferRef view;                  ///< FrameView
   Warnings& warnings;                   ///< one-line remarks for whoever renders
   std::span<const Proxy> proxies = {};  ///< spheres in place of what moves; empty unless someone made them
+  const Emission* emission = nullptr;   ///< what they send; null unless someone made it
 };
 
 /// First surface lit by a source, or by other surfaces.

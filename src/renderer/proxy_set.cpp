@@ -118,8 +118,12 @@ std::vector<PosedSphere> ProxySet::drawnIn(const PosedScene& posed) const {
 }
 
 std::vector<frame::Proxy> ProxySet::posed(const PosedScene& posed) const {
+  return proxiesOf(drawnIn(posed));
+}
+
+std::vector<frame::Proxy> ProxySet::proxiesOf(std::span<const PosedSphere> drawn_in) const {
   std::vector<frame::Proxy> proxies;
-  for (const PosedSphere& sphere : drawnIn(posed)) {
+  for (const PosedSphere& sphere : drawn_in) {
     const glm::vec3 albedo = albedos_[std::size_t(sphere.set)][std::size_t(sphere.sphere)];
     proxies.push_back({sphere.center, sphere.radius, albedo});
   }

@@ -19,6 +19,10 @@ class ProxySet {
   std::vector<PosedSphere> drawnIn(const PosedScene& posed) const;
   /// The same as a frame takes them.
   std::vector<frame::Proxy> posed(const PosedScene& posed) const;
+  std::vector<frame::Proxy> proxiesOf(std::span<const PosedSphere> drawn_in) const;
+  const SceneSpheres& spheres() const { return spheres_; }
+  /// Of radii, as they are drawn in: [set][sphere].
+  const std::vector<std::vector<float>>& shares() const { return shares_; }
 
  private:
   SceneSpheres spheres_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "frame/frame.h"
+#include "renderer/emission_set.h"
 #include "renderer/proxy_set.h"
 #include "renderer/read_back.h"
 #include "techniques/technique.h"
@@ -28,6 +29,7 @@ struct Renderer::Impl {
   frame::EnvironmentLight environment;
   std::optional<frame::GpuScene> scene;
   std::optional<ProxySet> proxies;
+  std::optional<EmissionSet> sent;
   std::map<std::string, std::unique_ptr<Technique>> techniques;
   frame::FrameMemory memory;
 };
@@ -105,6 +107,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::setScene(const Scene& scene) {
   impl_->scene.reset();  // frees the old one's memory first
   impl_->proxies.reset();
+  impl_->sent.reset();
   impl_->scene.emplace(*impl_->device, scene);
   impl_->memory = {};
   setEnvironment(scene.environment);
@@ -112,7 +115,13 @@ void Renderer::setScene(const Scene& scene) {
 
 void Renderer::setSpheres(const Scene& scene, const SceneSpheres& spheres) {
   if (!impl_->scene) throw Error("renderer", "no scene was set");
+  impl_->sent.reset();
   impl_->proxies.emplace(scene, spheres);
+}
+
+void Renderer::setEmission(const Scene& scene, const SceneEmission& emission) {
+  if (!impl_->proxies) throw Error("renderer", "no sphere sets were set");
+  impl_->sent.emplace(scene, impl_->proxies->spheres(), emission, impl_->proxies->shares());
 }
 
 void Renderer::setEnvironment(const Environment& environment) {
@@ -128,10 +137,17 @@ RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camer
   if (!impl_->scene) throw Error("renderer", "no scene was set");
   Technique& technique = impl_->techniqueFor(info.name);
   std::vector<frame::Proxy> proxies;
+  frame::Emission sent;
   if (info.needs_spheres) {
     if (!impl_->proxies) throw Error("renderer", fmt::format("{}: no sphere sets were set", info.name));
-    proxies = impl_->proxies->posed(posed);
+    const std::vector<PosedSphere> spheres = impl_->proxies->drawnIn(posed);
+    proxies = impl_->proxies->proxiesOf(spheres);
     frame_options.proxies = proxies;
+    if (info.needs_emission) {
+      if (!impl_->sent) throw Error("renderer", fmt::format("{}: what spheres send was not set", info.name));
+      sent = impl_->sent->posed(posed, spheres);
+      frame_options.emission = &sent;
+    }
   }
   gpu::FrameGraph& graph = impl_->graph;
 
@@ -164,6 +180,14 @@ std::vector<std::string> Renderer::imageNames() const {
 DeviceInfo Renderer::device() const {
   const gpu::DeviceInfo& info = impl_->device->info();
   return {info.index, info.name, info.driver, info.software};
+}
+
+std::vector<MemoryUse> Renderer::memory() const {
+  std::vector<MemoryUse> uses;
+  for (const gpu::MemoryUse& use : impl_->device->memory())
+    uses.push_back({use.name, std::size_t(use.bytes)});
+  std::ranges::sort(uses, std::greater(), &MemoryUse::bytes);
+  return uses;
 }
 
 int Renderer::validationMessages() const {

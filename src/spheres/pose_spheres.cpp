@@ -96,7 +96,13 @@ glm::vec3 placeOf(const SphereAnchor& anchor, const Parts& parts, const glm::vec
   return glm::vec3(instance.world_from_object * glm::vec4(rest, 1.0f));
 }
 
-Sphere followAnchors(const SphereSet& set, std::size_t index, const Scene& scene, const Parts& parts) {
+/// A sphere where it is, and how it has turned.
+struct Followed {
+  Sphere sphere;
+  glm::mat3 turn;
+};
+
+Followed followAnchors(const SphereSet& set, std::size_t index, const Scene& scene, const Parts& parts) {
   const Sphere& sphere = set.spheres[index];
   const std::span anchors(set.anchors.begin() + set.first_anchor[index],
                           set.anchors.begin() + set.first_anchor[index + 1]);
@@ -127,7 +133,7 @@ Sphere followAnchors(const SphereSet& set, std::size_t index, const Scene& scene
   }
   const float spread = rest_reach > 0.0f ? now_reach / rest_reach : 1.0f;
   posed.radius = sphere.radius * std::clamp(spread, scale / kMostGrowth, scale * kMostGrowth);
-  return posed;
+  return {posed, turn};
 }
 
 Sphere followMatrix(const Sphere& sphere, const glm::mat4& world_from_shape, float stretch) {
@@ -179,10 +185,11 @@ void poseObject(const SphereSet& set, int set_index, const Scene& scene, const P
       parts.front()->world_from_object * glm::mat4(glm::inverse(set.shape_from_object));
   const glm::vec3 scale = glm::abs(decomposeLinear(glm::mat3(world_from_shape)).scale);
   const float stretch = std::max({scale.x, scale.y, scale.z});
+  const glm::mat3 turn = rotationFactor(world_from_shape);
   for (std::size_t s = 0; s < set.spheres.size(); ++s) {
-    const Sphere posed = follow ? followAnchors(set, s, scene, parts)
-                                : followMatrix(set.spheres[s], world_from_shape, stretch);
-    out.push_back({posed.center, posed.radius, set_index, int(s), instance});
+    const Followed posed = follow ? followAnchors(set, s, scene, parts)
+                                  : Followed{followMatrix(set.spheres[s], world_from_shape, stretch), turn};
+    out.push_back({posed.sphere.center, posed.sphere.radius, set_index, int(s), instance, posed.turn});
   }
 }
 

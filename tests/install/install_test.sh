@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "install_test: $1" >&2; exit 1; }
 
 "$cmake" --install "$build" --prefix "$work/prefix" > "$work/install.log" || { cat "$work/install.log"; fail "install"; }
-headers="error image sh scene spheres neighbourhood volume lights compress bake reference metrics renderer"
+headers="error image sh scene spheres spherical_lights neighbourhood volume lights compress bake reference metrics renderer"
 for header in $headers; do
   [ -f "$work/prefix/include/gloam/$header.h" ] || fail "gloam/$header.h is not installed"
 done

@@ -1,0 +1,40 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gloam/sh.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gloam::frame {
+
+/// A point of a surface that lights a proxy, where it is in this frame.
+struct EmissionPoint {
+  glm::vec3 position{0.0f};  ///< world, metres
+  float sends = 0.0f;        ///< 0: there is none, 1
+  glm::vec3 normal{0.0f};    ///< unit, outward
+  float unused = 0.0f;
+};
+
+/// What a proxy sends besides where it stands (FrameInputs::proxies, in their order).
+struct ProxyEmission {
+  int object = 0;                     ///< proxies of one number are neighbours in the list and one thing
+  int first = 0, count = 0;           ///< that thing's proxies
+  glm::mat3 world_from_shape{1.0f};   ///< orthogonal: the axes of the coefficients
+  const sh::ShRgb* albedo = nullptr;  ///< four bands
+  const sh::ShRgb* glow = nullptr;    ///< four bands
+};
+
+/// Valid as long as who posed it keeps it.
+struct Emission {
+  int points_each = 0;  ///< a proxy
+  std::vector<EmissionPoint> points;
+  std::vector<ProxyEmission> proxies;
+  /// Bit i of proxy p, in `words` words: it meets proxy first + i of its own thing; itself, too.
+  int words = 0;
+  std::vector<std::uint32_t> meets;
+  bool glows = false;  ///< any
+};
+
+}  // namespace gloam::frame
