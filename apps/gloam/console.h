@@ -12,15 +12,17 @@
 
 namespace gloam::cli {
 
+/// Whoever does not talk on a terminal takes remarks and progress elsewhere: those members are virtual.
 class Console {
  public:
+  virtual ~Console() = default;
   bool quiet = false;   ///< no remarks, no progress
   bool json = false;    ///< the result is one JSON value on standard output, nothing else there
   std::string command;  ///< as it was typed, quoted for a shell
 
   /// One line on standard error that a user may want to know ("no light: sky:mild"). Held back until release(), so that
   /// bad input is answered by its error alone.
-  void remark(const std::string& line);
+  virtual void remark(const std::string& line);
   /// Called when the input has proved good: shows what was held back, and from then on remarks at once.
   void release();
   /// All that a reader mended or left out, each with the file's name before it.
@@ -29,9 +31,9 @@ class Console {
   void print(const std::string& line);
 
   /// Work that reports here: a bar on a terminal, a plain line every ten seconds in a log.
-  Progress progress();
+  virtual Progress progress();
   /// Takes the bar off the screen.
-  void endProgress();
+  virtual void endProgress();
 
  private:
   using Clock = std::chrono::steady_clock;
