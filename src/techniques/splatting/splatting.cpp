@@ -1,0 +1,189 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Nichols, Wyman 2009, "Multiresolution splatting for indirect illumination", section 3: the pipeline. Differs: refinement by
+// compute with indirect dispatches; a subsplat sums its lights in registers.
+#include "techniques/splatting/splatting.h"
+
+#include <fmt/format.h>
+
+#include "shaders/splatting_shaders.h"
+#include "techniques/splatting/splatting_levels.h"
+
+namespace gloam::splatting {
+
+namespace {
+
+const std::vector<Option>& options() {
+  static const std::vector<Option> options = {
+      {.name = "vpls",
+       .default_value = 256,
+       .minimum = 0,
+       .maximum = 100000,
+       .help = "virtual point lights, of all lamps together"},
+      {.name = "sampling",
+       .default_value = std::string("grid"),
+       .choices = {"grid", "quasi", "importance"},
+       .help = "where they are taken from what lamps light: a regular grid, quasi-random points, or these by "
+               "flux"},
+      {.name = "map_size",
+       .default_value = 256,
+       .minimum = 16,
+       .maximum = 4096,
+       .help = "texels a side of a lamp's reflective shadow map"},
+      {.name = "mode",
+       .default_value = std::string("multiresolution"),
+       .choices = {"multiresolution", "full"},
+       .help = "where light is gathered: coarsely where nothing varies, or at every pixel"},
+      {.name = "bound",
+       .default_value = std::string("area"),
+       .choices = {"area", "disc", "none"},
+       .help = "what keeps light near to a virtual light finite: a least distance by its area, the light of "
+               "a disc of that area, "
+               "or nothing"},
+      {.name = "normal_threshold",
+       .default_value = 0.5f,
+       .minimum = 0.0,
+       .maximum = 2.0,
+       .help = "difference of a component of the normal beyond which a texel is split"},
+      {.name = "depth_threshold",
+       .default_value = 0.1f,
+       .minimum = 0.0,
+       .maximum = 1000.0,
+       .help = "difference of depth, in parts of it, beyond which a texel is split"},
+      {.name = "normals",
+       .default_value = std::string("geometric"),
+       .choices = {"geometric", "shading"},
+       .help = "normals whose differences split texels"},
+      {.name = "coarsest",
+       .default_value = 16,
+       .minimum = 4,
+       .maximum = 1024,
+       .help = "texels on the picture's shorter side at the coarsest level, or up to twice as many"},
+      {.name = "resolution",
+       .default_value = 0,
+       .minimum = 0,
+       .maximum = 16384,
+       .help = "texels on the picture's shorter side at the finest level, at most; 0: pixels"},
+      {.name = "upsample",
+       .default_value = std::string("surfaces"),
+       .choices = {"surfaces", "paper", "blocks"},
+       .help = "how levels become pixels: interpolated along surfaces, as the paper has it, or not at all"},
+      {.name = "detail",
+       .default_value = 0.0f,
+       .minimum = 0.0,
+       .maximum = 1.0,
+       .help =
+           "darkening of what is turned away from the eye, which stands for detail that coarse texels lose"}};
+  return options;
+}
+
+int boundKind(const std::string& name) {
+  return name == "none" ? 0 : (name == "area" ? 1 : 2);
+}
+
+vpls::VplOptions vplOptions(const Settings& settings) {
+  const std::string& sampling = settings.choice("sampling");
+  return {.count = settings.integer("vpls"),
+          .map_size = settings.integer("map_size"),
+          .sampling = sampling == "grid"    ? vpls::Sampling::kGrid
+                      : sampling == "quasi" ? vpls::Sampling::kQuasi
+                                            : vpls::Sampling::kImportance};
+}
+
+/// MS-5 at every pixel.
+gpu::ImageRef recordFull(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const vpls::Vpls& vpls,
+                         int bound) {
+  const frame::ReceiverLevel& receivers = inputs.receivers.at(1);
+  const auto light =
+      graph.create("splatting.irradiance", gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                          .width = inputs.gbuffer.width,
+                                                          .height = inputs.gbuffer.height});
+  for (std::uint32_t i = 0; i < vpls.chunks(); ++i) {
+    auto& pass = graph.compute("splatting.full", splatting_full_spv);
+    (i == 0 ? pass.write("light", light) : pass.readWrite("light", light))
+        .specialize("first", i == 0)
+        .specialize("bound_kind", bound)
+        .read("vpls", vpls.chunk(i))
+        .read("receiver_position", receivers.position)
+        .read("receiver_normal", receivers.normal_depth)
+        .dispatchOver(light);
+  }
+  return light;
+}
+
+/// Light of all subsplats, into the levels' images.
+void recordGather(gpu::FrameGraph& graph, const Plan& plan, std::vector<Level>& levels,
+                  const Subsplats& subsplats, const vpls::Vpls& vpls, int bound) {
+  const std::size_t pixels = std::size_t(levels[0].width) * std::size_t(levels[0].height);
+  const auto light = graph.create("splatting.light", gpu::BufferDesc{.bytes = pixels * sizeof(glm::vec3)});
+  const auto arguments = [&](std::uint32_t index) {
+    return subsplats.arguments.slice(index * sizeof(Groups), sizeof(Groups));
+  };
+  for (std::uint32_t i = 0; i < vpls.chunks(); ++i) {
+    auto& pass = graph.compute("splatting.gather", splatting_gather_spv);
+    (i == 0 ? pass.write("light", light) : pass.readWrite("light", light))
+        .specialize("first", i == 0)
+        .specialize("bound_kind", bound)
+        .read("vpls", vpls.chunk(i))
+        .read("counts", subsplats.counts)
+        .read("subsplats", subsplats.points)
+        .dispatchIndirect(arguments(kMostLevels + i));
+  }
+  for (int k = plan.coarsest; k >= plan.finest; --k) {
+    Level& level = levels[std::size_t(k)];
+    level.light = graph.create(
+        fmt::format("splatting.light_{}", k),
+        gpu::ImageDesc{
+            .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = level.width, .height = level.height});
+    graph.clear("splatting.place", level.light);
+    graph.compute("splatting.place", splatting_place_spv)
+        .read("counts", subsplats.counts)
+        .read("leaves", level.leaves)
+        .read("light", light)
+        .write("level_light", level.light)
+        .push(std::int32_t(k))
+        .dispatchIndirect(arguments(std::uint32_t(k)));
+  }
+}
+
+}  // namespace
+
+const TechniqueInfo& info() {
+  static const TechniqueInfo info = {
+      .name = "splatting",
+      .summary = "light of lamps by way of one other surface: virtual point lights at many resolutions",
+      .covers = {.local_direct = true, .local_indirect = true},
+      .options = options()};
+  return info;
+}
+
+frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                  const Settings& settings) {
+  // Distant light is not this technique's, its gloss neither.
+  frame::Lighting lighting{.has_environment_gloss = true};
+  const vpls::Vpls vpls = vpls::recordVpls(graph, inputs, vplOptions(settings));
+  if (vpls.capacity == 0) return lighting;
+  const int bound = boundKind(settings.choice("bound"));
+  const Plan plan = planLevels(inputs.gbuffer.width, inputs.gbuffer.height, settings.integer("coarsest"),
+                               settings.integer("resolution"));
+  gpu::ImageRef irradiance;
+  if (settings.choice("mode") == "full" || plan.coarsest == 0) {
+    irradiance = recordFull(graph, inputs, vpls, bound);
+  } else {
+    const Thresholds thresholds{settings.number("normal_threshold"), settings.number("depth_threshold")};
+    const std::string& upsample = settings.choice("upsample");
+    const Upsampling upsampling = upsample == "surfaces" ? Upsampling::kSurfaces
+                                  : upsample == "paper"  ? Upsampling::kPaper
+                                                         : Upsampling::kBlocks;
+    std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
+    const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, vpls);
+    recordGather(graph, plan, levels, subsplats, vpls, bound);
+    irradiance = recordUpsampling(graph, levels, thresholds, upsampling, settings.number("detail"),
+                                  inputs.view, inputs.gbuffer.normals);
+  }
+  lighting.irradiance.push_back({.image = irradiance, .path = frame::Path::kIndirect});
+  return lighting;
+}
+
+}  // namespace gloam::splatting

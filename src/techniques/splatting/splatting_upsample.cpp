@@ -1,0 +1,53 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Nichols, Wyman 2009, section 3.5, from coarse to fine; section 4.2, detail. The shaders say what differs.
+#include <fmt/format.h>
+
+#include "shaders/splatting_shaders.h"
+#include "techniques/splatting/splatting_levels.h"
+
+namespace gloam::splatting {
+
+gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> levels,
+                               const Thresholds& thresholds, Upsampling upsampling, float detail,
+                               gpu::BufferRef view, gpu::ImageRef normals) {
+  const auto none = graph.create("splatting.none", gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  graph.clear("splatting.none", none);
+  const auto or_none = [&](gpu::ImageRef image) { return image ? image : none; };
+  const auto result = [&](const Level& level, const std::string& name) {
+    return graph.create(
+        name, gpu::ImageDesc{
+                  .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = level.width, .height = level.height});
+  };
+  gpu::ImageRef coarse = none;
+  for (std::size_t k = levels.size() - 1; k > 0; --k) {
+    const Level& level = levels[k];
+    const auto image = result(level, fmt::format("splatting.upsampled_{}", k));
+    graph.compute("splatting.upsample", splatting_upsample_spv)
+        .specialize("coarsest", k + 1 == levels.size())
+        .specialize("along_surfaces", upsampling == Upsampling::kSurfaces)
+        .specialize("interpolates", upsampling != Upsampling::kBlocks)
+        .read("own", or_none(level.light))
+        .read("coarse", coarse)
+        .read("least", level.least)
+        .read("greatest", level.greatest)
+        .write("result", image)
+        .push(thresholds)
+        .dispatchOver(image);
+    coarse = image;
+  }
+  const auto irradiance = result(levels[0], "splatting.irradiance");
+  graph.compute("splatting.finish", splatting_finish_spv)
+      .specialize("detail", detail)
+      .specialize("interpolates", upsampling != Upsampling::kBlocks)
+      .read("frame_view", view)
+      .read("own", or_none(levels[0].light))
+      .read("coarse", coarse)
+      .read("normals", normals)
+      .write("result", irradiance)
+      .dispatchOver(irradiance);
+  return irradiance;
+}
+
+}  // namespace gloam::splatting
