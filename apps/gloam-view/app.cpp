@@ -1,0 +1,233 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "app.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <fmt/core.h>
+#include <image/atomic_file.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gloam::view {
+namespace {
+
+constexpr double kLeastFrameSeconds = 1.0 / 60.0;
+constexpr int kMostRecoveries = 3;
+
+std::string glfw_problem;
+
+void onProblem(int, const char* text) {
+  glfw_problem = text != nullptr ? text : "";
+}
+
+}  // namespace
+
+App::App(const ViewerChoice& choice) : choice_(choice) {
+  if (!choice.script.empty()) script_ = std::make_unique<Script>(choice.script);
+  ui_.panel = choice.panel;
+  createWindow();
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  setScale();
+  ImGui_ImplGlfw_InitForVulkan(window_, true);
+  openSurface();
+  session_ = std::make_unique<Session>(choice, [] { glfwPostEmptyEvent(); });
+}
+
+App::~App() {
+  session_.reset();
+  surface_.reset();
+  device_.reset();
+  if (ImGui::GetCurrentContext() != nullptr) {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  if (window_ != nullptr) glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void App::createWindow() {
+  glfwSetErrorCallback(onProblem);
+  if (glfwInit() == GLFW_FALSE) {
+    throw Error("window", fmt::format("no display ({}); `gloam render` draws without one", glfw_problem));
+  }
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, choice_.ui_scale > 0.0f ? GLFW_FALSE : GLFW_TRUE);
+  window_ = glfwCreateWindow(choice_.view.size.x, choice_.view.size.y, "gloam-view", nullptr, nullptr);
+  if (window_ == nullptr) throw Error("window", fmt::format("cannot be opened: {}", glfw_problem));
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    App& app = *static_cast<App*>(glfwGetWindowUserPointer(window));
+    for (int i = 0; i < count; ++i) app.session_->openDropped(paths[i]);
+  });
+  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) {
+    static_cast<App*>(glfwGetWindowUserPointer(window))->setScale();
+  });
+}
+
+void App::setScale() {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  int width = 0, framebuffer = 0, unused = 0;
+  glfwGetWindowSize(window_, &width, &unused);
+  glfwGetFramebufferSize(window_, &framebuffer, &unused);
+  const float pixels = width > 0 && framebuffer > 0 ? float(framebuffer) / float(width) : 1.0f;
+  ui_.scale = choice_.ui_scale > 0.0f ? choice_.ui_scale : std::clamp(x / pixels, 0.5f, 4.0f);
+  setStyle(ui_.scale);
+  loadLetters(ui_.scale);
+  letters_wanted_ = true;
+}
+
+void App::openSurface() {
+  device_ = std::make_unique<WindowDevice>(window_);
+  surface_ = std::make_unique<WindowSurface>(*device_, choice_.vsync);
+  letters_wanted_ = true;
+  uploaded_ = 0;
+}
+
+void App::recover() {
+  if (++recoveries_ > kMostRecoveries) throw Error("window", "the Vulkan device was lost again and again");
+  surface_.reset();
+  device_.reset();
+  openSurface();
+  session_->say("the window's Vulkan device was lost and opened anew", true);
+}
+
+void App::run() {
+  while (glfwWindowShouldClose(window_) == GLFW_FALSE && !ui_.quit && !cli::interrupted()) {
+    waitForEvents();
+    try {
+      drawFrame();
+    } catch (const DeviceLost&) {
+      recover();
+    }
+    if (!session_->fatal.empty()) throw Error(session_->fatal);
+    runErrands();
+    if (script_ && !script_->play(*this)) break;
+  }
+  session_->stopVideo();
+  if (!choice_.stats.empty()) writeStats(choice_.stats);
+  const int messages = session_->validationMessages() + windowValidationMessages();
+  if (messages > 0)
+    throw Error("GLOAM_VALIDATION", fmt::format("{} messages of the validation layer", messages));
+}
+
+/// At rest the window costs nothing; while something runs it is drawn as often as the display shows it.
+void App::waitForEvents() {
+  const bool lively =
+      script_ || !session_->idle() || !choice_.screenshot.empty() || !choice_.window_screenshot.empty();
+  const double since = glfwGetTime() - last_frame_s_;
+  if (lively) {
+    glfwWaitEventsTimeout(std::max(0.001, kLeastFrameSeconds - since));
+  } else {
+    glfwWaitEventsTimeout(0.25);
+  }
+  last_frame_s_ = glfwGetTime();
+}
+
+void App::injectInput() {
+  if (!mouse_) return;
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {mouse_->x, mouse_->y};
+  for (int i = 0; i < 3; ++i) io.MouseDown[i] = buttons_[i];
+}
+
+void App::drawFrame() {
+  int width = 0, height = 0, window_width = 0, window_height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  glfwGetWindowSize(window_, &window_width, &window_height);
+  const bool hidden = width <= 0 || height <= 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+  if (hidden) {  // work goes on, nothing is drawn
+    session_->update(0, 0);
+    return;
+  }
+  surface_->wait();
+  if (std::exchange(letters_wanted_, false)) {
+    unsigned char* pixels = nullptr;
+    int letters_width = 0, letters_height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &letters_width, &letters_height);
+    ImGui::GetIO().Fonts->SetTexID(textureId(TextureSlot::kLetters));  // building them forgot it
+    surface_->ui().setTexture(TextureSlot::kLetters, letters_width, letters_height, pixels);
+  }
+  ui_.ui_device_ms = surface_->uiDeviceMs();
+  const ImVec2 window{float(window_width), float(window_height)};
+  place_ = layOut(ui_, window);
+  const float pixels = window_width > 0 ? float(width) / float(window_width) : 1.0f;
+  session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
+  uploadPictures();
+  ImGui_ImplGlfw_NewFrame();
+  injectInput();
+  ImGui::NewFrame();
+  drawPicture(*session_, place_);
+  const bool gizmo_has_mouse = drawGizmo(*session_, ui_, place_);
+  drawPanel(*session_, ui_, place_, window);
+  drawOverlays(*session_, ui_, place_);
+  drawInspector(*session_, ui_, place_);
+  handleInput(*session_, ui_, place_, gizmo_has_mouse);
+  ImGui::Render();
+  if (!ui_.copied.empty()) glfwSetClipboardString(window_, std::exchange(ui_.copied, {}).c_str());
+  surface_->show(width, height, *ImGui::GetDrawData());
+  const std::string title = fmt::format("gloam-view  {}", session_->scene_name);
+  static std::string shown_title;
+  if (title != shown_title) glfwSetWindowTitle(window_, (shown_title = title).c_str());
+}
+
+void App::uploadPictures() {
+  const Drawn* drawn = session_->drawn();
+  if (drawn == nullptr || uploaded_ == session_->pictureRevision()) return;
+  uploaded_ = session_->pictureRevision();
+  UiRenderer& ui = surface_->ui();
+  ui.setTexture(TextureSlot::kLeft, drawn->width, drawn->height, drawn->left.rgba.data());
+  if (drawn->split) ui.setTexture(TextureSlot::kRight, drawn->width, drawn->height, drawn->right.rgba.data());
+  const ReferenceView* reference = session_->reference();
+  if (session_->state.split != Split::kReference || reference == nullptr || !reference->layers) return;
+  DisplayOptions display = session_->state.display;
+  display.auto_exposure = false;
+  const Image shown = toDisplay(*reference->layers, display);
+  ui.setTexture(TextureSlot::kRight, shown.width, shown.height, encodeSrgb8(shown).data());
+}
+
+/// --screenshot, --window-screenshot: after --frames pictures, when the last one stands.
+void App::runErrands() {
+  if (choice_.screenshot.empty() && choice_.window_screenshot.empty()) return;
+  if (!session_->idle()) return;
+  const int wanted = choice_.frames > 0 ? choice_.frames : 2;
+  if (session_->pictures() < wanted) return session_->changed();
+  if (!choice_.window_screenshot.empty() && !captureWindow(choice_.window_screenshot)) return;
+  if (!choice_.screenshot.empty()) {
+    const LayeredImage* right = session_->drawn()->split ? session_->drawn()->right.layers.get() : nullptr;
+    savePicture(choice_.screenshot, *session_->drawn(), right, session_->divider);
+  }
+  if (!script_) ui_.quit = true;
+  choice_.screenshot.clear();
+  choice_.window_screenshot.clear();
+}
+
+bool App::captureWindow(const std::string& path) {
+  if (!capture_asked_) {
+    surface_->requestCapture();
+    capture_asked_ = true;
+    return false;
+  }
+  surface_->wait();
+  const Image image = surface_->takeCapture();
+  if (image.empty()) return false;
+  capture_asked_ = false;
+  writePng(image, path);
+  return true;
+}
+
+void App::writeStats(const std::string& path) {
+  cli::Json stats = session_->stats(ui_.ui_device_ms, device_->liveObjects());
+  stats["picture_place"] = {place_.low.x, place_.low.y, place_.size.x, place_.size.y};
+  stats["panel"] = ui_.panel;
+  const std::string text = cli::jsonText(stats) + "\n";
+  AtomicFile out(path);
+  out.write(text.data(), text.size());
+  out.commit();
+}
+
+}  // namespace gloam::view

@@ -1,0 +1,45 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// How many pixels to draw: fewer while something moves, so that it stays smooth on a software driver; all of them, as far as
+// patience goes, when it stands still.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace gloam::view {
+
+class Resolution {
+ public:
+  float fixed = 0.0f;        ///< share of the window's pixels each way; 0: found
+  float moving_ms = 90.0f;   ///< what a picture may take while something moves
+  float still_ms = 1500.0f;  ///< what one may take that stands still
+
+  /// Of a picture that took that long: learns what a pixel costs. A part of the time, kBaseMs, is no pixel's.
+  void add(double pixels, double milliseconds) {
+    if (pixels < 1.0) return;
+    const double cost = std::max(milliseconds - kBaseMs, 0.1) / pixels;
+    cost_ = cost_ <= 0.0 ? cost : cost > cost_ ? 0.5 * cost_ + 0.5 * cost : 0.7 * cost_ + 0.3 * cost;
+  }
+  void forget() { cost_ = 0.0; }
+  /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time.
+  float scale(double window_pixels, bool moving) const {
+    if (fixed > 0.0f) return fixed;
+    if (cost_ <= 0.0) return moving ? 0.5f : 0.71f;
+    const double affordable = std::max(double(moving ? moving_ms : still_ms) - kBaseMs, 5.0) / cost_;
+    const double share = std::sqrt(affordable / std::max(window_pixels, 1.0));
+    float best = kSteps[0];
+    for (const float step : kSteps) {
+      if (step <= share * 1.05) best = step;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kBaseMs = 8.0;
+  static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
+  double cost_ = 0.0;  ///< milliseconds a pixel
+};
+
+}  // namespace gloam::view

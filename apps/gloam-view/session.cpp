@@ -1,0 +1,389 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What is asked for. session_update.cpp has what happens every frame, session_set.cpp names and values.
+#include "session.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "bake_run.h"
+#include "emission_run.h"
+#include "show.h"
+#include "spheres_run.h"
+
+namespace gloam::view {
+namespace {
+
+constexpr std::size_t kKeptMessages = 60;
+
+Pick pickOf(const TechniqueInfo& info) {
+  return {&info, Settings(info.options)};
+}
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+bool isReady(const Pick& pick, const LoadedScene& scene, const Needs& needs) {
+  if (pick.info->needs_bake && !cli::carriesTransfer(scene.scene)) return false;
+  if (!pick.info->needs_spheres) return true;
+  if (pick.info->needs_emission && !needs.emission) return false;
+  return needs.spheres && needs.of == &scene && needs.sphere_count == pick.settings.integer("spheres");
+}
+
+Session::Session(const ViewerChoice& choice, std::function<void()> wake)
+    : choice_(choice), jobs_(wake), worker_(choice.device, wake), tracer_(wake) {
+  resolution.fixed = choice.scale;
+  for (Pick& pick : wanted) pick = pickOf(techniques().front());
+  state.left = state.right = wanted[kLeft];
+  adoptChoice(choice);
+  state.time_s = choice.view.time_s;
+  open(choice.scene.name, choice.scene.ground);
+}
+
+double Session::now_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+void Session::say(const std::string& text, bool problem) {
+  if (text.empty()) return;
+  messages_.push_back({cli::singleLine(text), problem, now_s()});
+  if (messages_.size() > kKeptMessages) messages_.pop_front();
+}
+
+void Session::changed() {
+  ++serial_;
+  last_change_s_ = now_s();
+  if (response_serial_ == 0) {
+    response_serial_ = serial_;
+    response_from_ = worker_.pictures();
+  }
+}
+
+bool Session::moving() const {
+  return playing || dragging || now_s() - last_change_s_ < 0.2;
+}
+
+/// All of a choice but scene and camera.
+void Session::adoptChoice(const ViewerChoice& choice) {
+  state.env_rotation_deg = choice.light.rotation_deg;
+  state.env_intensity = choice.light.intensity;
+  state.lights = choice.light.lights;
+  light_texts = choice.light.light_texts;
+  state.supersample = choice.view.supersample;
+  state.display = cli::displayOf(choice.display);
+  state.background = choice.display.background;
+  state.show = choice.show;
+  for (const TechniqueInfo& info : techniques()) {
+    if (choice.technique.name != info.name) continue;
+    wanted[kLeft] = {&info, cli::settingsFor(info, choice.technique)};
+    switch_started_s_ = now_s();
+  }
+}
+
+void Session::open(const std::string& name, bool ground) {
+  ViewerChoice choice = choice_;
+  choice.scene.name = name;
+  choice.scene.ground = ground;
+  if (!first_) choice.view.camera.clear(), choice.view.eye.reset(), choice.view.target.reset();
+  const bool first = first_;
+  cli::LightChoice light = choice.light;
+  light.rotation_deg = 0.0f;  // turned later, as often as wanted
+  light.intensity = 1.0f;
+  if (!first) light.environment = environment_name;
+  const float time_s = first ? choice.view.time_s : 0.0f;
+  const auto work = [this, choice, light, time_s](JobConsole& console) -> Jobs::Finish {
+    Scene scene = cli::loadSceneToDraw(choice.scene, console);
+    auto base = std::make_shared<const Environment>(cli::chooseBaseEnvironment(scene, light, console));
+    const PosedScene posed = pose(scene, time_s);
+    const PosedCamera posed_camera = cli::chooseCamera(posed, choice.view, console);
+    auto loaded = makeLoadedScene(choice.scene.name, choice.scene.ground, std::move(scene));
+    return [this, loaded, base, posed, posed_camera, time_s, choice, light] {
+      state.time_s = time_s;
+      camera.set(posed_camera, posed);
+      if (choice.view.eye && choice.view.target) camera.setTarget(*choice.view.eye, *choice.view.target);
+      environment_name = light.environment;
+      adopt(loaded, base, posed_camera);
+    };
+  };
+  jobs_.start(fmt::format("Opening {}", name), work, [this, name, first](const std::string& problem) {
+    if (first && !state.scene) fatal = problem.empty() ? fmt::format("{}: not opened", name) : problem;
+    say(problem, true);
+  });
+}
+
+void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const Environment> base,
+                    const PosedCamera&) {
+  const bool first = std::exchange(first_, false);
+  state.scene = std::move(scene);
+  state.base = std::move(base);
+  state.needs = {};
+  state.edits.clear();
+  selected_node = kNone;
+  playing = false;
+  duration_s_ = state.scene->scene.duration_s();
+  scene_name = state.scene->name;
+  recent_.add(scene_name);
+  resolution.forget();
+  if (first && choice_.technique.name.empty()) {
+    const TechniqueInfo& info = cli::chooseTechnique(choice_.technique, state.scene->scene);
+    wanted[kLeft] = {&info, cli::settingsFor(info, choice_.technique)};
+  }
+  prepare();
+  changed();
+}
+
+void Session::openEnvironment(const std::string& name) {
+  if (!state.scene) return;
+  const auto scene = state.scene;
+  const cli::LightChoice light{.environment = name, .light_texts = light_texts, .lights = state.lights};
+  const auto work = [this, scene, light, name](JobConsole& console) -> Jobs::Finish {
+    auto base = std::make_shared<const Environment>(cli::chooseBaseEnvironment(scene->scene, light, console));
+    return [this, base, name] {
+      state.base = base;
+      environment_name = name;
+      changed();
+    };
+  };
+  jobs_.start(fmt::format("Reading {}", name.empty() ? "the scene's light" : name), work,
+              [this](const std::string& problem) { say(problem, true); });
+}
+
+void Session::openDropped(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".json") {
+    loadPreset(path);
+  } else if (extension == ".hdr" || extension == ".exr") {
+    openEnvironment(path);
+  } else {
+    open(path);
+  }
+}
+
+void Session::loadPreset(const std::string& path) {
+  try {
+    ViewerChoice preset = readPreset(path);
+    if (preset.technique.name.empty()) preset.technique.name = wanted[kLeft].info->name;
+    adoptChoice(preset);
+    if (preset.view.eye && preset.view.target) camera.setTarget(*preset.view.eye, *preset.view.target);
+    if (preset.view.fov_deg) camera.setFov(glm::radians(*preset.view.fov_deg));
+    state.time_s = preset.view.time_s;
+    if (preset.light.environment != environment_name) openEnvironment(preset.light.environment);
+    say(fmt::format("preset {}", std::filesystem::path(path).filename().string()));
+    prepare();
+    changed();
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void Session::savePreset(const std::string& path) {
+  try {
+    ViewState whole = state;
+    whole.width = width_;
+    whole.height = height_;
+    whole.left = wanted[kLeft];
+    writePreset(path, whole, camera, environment_name, light_texts);
+    say(fmt::format("saved {}", path));
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void Session::pick(Side side, const std::string& name) {
+  if (name == wanted[side].info->name) return;
+  wanted[side] = pickOf(technique(name));
+  if (const auto given = choice_.technique.values.find(name); given != choice_.technique.values.end())
+    wanted[side].settings = cli::settingsFor(*wanted[side].info, choice_.technique);
+  if (!cli::isFrameLayer(state.show)) state.show.clear();  // images have other names there
+  switch_started_s_ = now_s();
+  prepare();
+  changed();
+}
+
+void Session::setOption(Side side, const std::string& name, const std::string& text) {
+  wanted[side].settings.set(name, text);
+  choice_.technique.values[wanted[side].info->name][name] = text;
+  last_pick_s_ = now_s();
+  takePicks();
+  changed();
+}
+
+void Session::setSplit(Split split) {
+  if (split == Split::kTechnique && wanted[kRight].info == wanted[kLeft].info && techniques().size() > 1) {
+    const bool same = wanted[kLeft].info == &techniques()[0];
+    wanted[kRight] = pickOf(techniques()[same ? 1 : 0]);
+  }
+  state.split = split;
+  reference_.reset();
+  traced_serial_ = 0;
+  tracer_.stop();
+  prepare();
+  changed();
+}
+
+void Session::setShow(const std::string& name) {
+  state.show = name;
+  prepare();
+  changed();
+}
+
+void Session::setTime(float time_s) {
+  state.time_s = std::clamp(time_s, 0.0f, std::max(duration_s_, 0.0f));
+  changed();
+}
+
+void Session::play(bool play) {
+  playing = play && (duration_s_ > 0.0f || state.lights.moves());
+  last_advance_s_ = now_s();
+  changed();
+}
+
+void Session::frameScene() {
+  if (!state.scene) return;
+  const PosedScene posed = poseEdited(*state.scene, state.edits, state.time_s);
+  camera.frame(posed.bounds_min, posed.bounds_max, aspect());
+  changed();
+}
+
+void Session::resetEdits() {
+  state.edits.clear();
+  changed();
+}
+
+void Session::clickAt(const glm::vec2& place) {
+  click_ = place;
+  state.layers = true;
+  changed();
+}
+
+bool Session::waitsFor(Side side) const {
+  return state.scene && (side == kLeft || state.split == Split::kTechnique) &&
+         !isReady(wanted[side], *state.scene, state.needs);
+}
+
+/// Starts what the picked techniques lack: one thing after the other.
+void Session::prepare() {
+  if (!state.scene || preparing_) return;
+  takePicks();
+  for (const Side side : {kLeft, kRight}) {
+    if (!waitsFor(side)) continue;
+    const Pick& pick = wanted[side];
+    if (pick.info->needs_bake && !cli::carriesTransfer(state.scene->scene)) return startBake(pick);
+    if (pick.info->needs_spheres)
+      return startSpheres(pick.settings.integer("spheres"), pick.info->needs_emission);
+  }
+  if (cli::showsSpheres(state.show) && !state.needs.spheres) startSpheres(SphereOptions{}.count, false);
+}
+
+void Session::startBake(const Pick& pick) {
+  preparing_ = true;
+  const auto scene = state.scene;
+  const auto work = [this, scene, time_s = state.time_s,
+                     use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
+    Scene baked = cli::bakeForDrawing(scene->scene, scene->name, time_s, use_cache, console);
+    auto loaded = makeLoadedScene(scene->name, scene->ground, std::move(baked));
+    return [this, scene, loaded] {
+      preparing_ = false;
+      if (state.scene == scene) {  // not another one in the meantime
+        if (loaded->scene.nodes.size() != scene->scene.nodes.size()) state.edits.clear();
+        state.scene = loaded;
+        state.needs = {};
+        resolution.forget();
+      }
+      prepare();
+      changed();
+    };
+  };
+  jobs_.start(fmt::format("Baking for {}", pick.info->name), work, [this](const std::string& problem) {
+    preparing_ = false;
+    say(problem.empty() ? "baking was stopped; picked again, it goes on from there" : problem, true);
+    for (Pick* p : {&wanted[kLeft], &wanted[kRight]}) {
+      if (p->info->needs_bake) *p = state.left;
+    }
+    prepare();
+  });
+}
+
+void Session::startSpheres(int count, bool emission) {
+  preparing_ = true;
+  const auto scene = state.scene;
+  const auto work = [this, scene, count, emission,
+                     use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
+    auto spheres = std::make_shared<const SceneSpheres>(
+        cli::spheresForDrawing(scene->scene, scene->name, use_cache, console, count));
+    std::shared_ptr<const SceneEmission> sent;
+    if (emission) {
+      sent = std::make_shared<const SceneEmission>(
+          cli::emissionForDrawing(scene->scene, *spheres, scene->name, use_cache, console));
+    }
+    return [this, scene, spheres, sent, count] {
+      preparing_ = false;
+      if (state.scene == scene) state.needs = {spheres, sent, count, scene.get()};
+      prepare();
+      changed();
+    };
+  };
+  jobs_.start("Fitting spheres", work, [this](const std::string& problem) {
+    preparing_ = false;
+    say(problem.empty() ? "fitting of spheres was stopped" : problem, true);
+    for (Pick* p : {&wanted[kLeft], &wanted[kRight]}) {
+      if (p->info->needs_spheres)
+        *p = state.left.info->needs_spheres ? pickOf(techniques().front()) : state.left;
+    }
+    if (cli::showsSpheres(state.show)) state.show.clear();
+    prepare();
+  });
+}
+
+/// What is ready is shown from the next picture on.
+void Session::takePicks() {
+  if (!state.scene) return;
+  if (isReady(wanted[kLeft], *state.scene, state.needs)) state.left = wanted[kLeft];
+  if (isReady(wanted[kRight], *state.scene, state.needs)) state.right = wanted[kRight];
+  for (Pick* shown : {&state.left, &state.right}) {  // of a scene before this one
+    if (!isReady(*shown, *state.scene, state.needs)) *shown = pickOf(techniques().front());
+  }
+}
+
+void Session::saveScreenshot(const std::string& path) {
+  try {
+    if (!drawn_) throw Error(path, "nothing is drawn yet");
+    const LayeredImage* right = drawn_->split                                    ? drawn_->right.layers.get()
+                                : reference_ && state.split == Split::kReference ? reference_->layers.get()
+                                                                                 : nullptr;
+    savePicture(path, *drawn_, right, divider);
+    say(fmt::format("saved {}", path));
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void Session::startVideo(const std::string& path) {
+  video_ = std::make_unique<VideoCapture>(path);
+  changed();
+}
+
+void Session::stopVideo() {
+  if (!video_) return;
+  try {
+    const std::int64_t frames = video_->finish();
+    say(frames > 0 ? fmt::format("saved {} ({} frames)", video_->path(), frames) : "no frame was recorded");
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+  video_.reset();
+}
+
+void Session::loseDevice() {
+  worker_.loseDevice();
+  changed();
+}
+
+}  // namespace gloam::view

@@ -1,0 +1,149 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What the window shows and what it is asked for, without a word of windows: scene, light, techniques, camera, time; the threads
+// that read, bake, draw and trace. Panels, keys and scripts all come here.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "camera_control.h"
+#include "capture.h"
+#include "draw_worker.h"
+#include "frame_history.h"
+#include "jobs.h"
+#include "recent_files.h"
+#include "reference_worker.h"
+#include "resolution.h"
+#include "viewer_choice.h"
+
+namespace gloam::view {
+
+enum Side { kLeft = 0, kRight = 1 };
+
+struct Message {
+  std::string text;
+  bool problem = false;
+  double at_s = 0.0;
+};
+
+struct ReferenceChoice {
+  int bounces = 2, samples = 4096;
+  bool same_light = true;  ///< only what the technique covers
+};
+
+class Session {
+ public:
+  Session(const ViewerChoice& choice, std::function<void()> wake);
+
+  // ---- What is asked for. Throws nothing: what goes wrong becomes a message.
+  void open(const std::string& name, bool ground = false);
+  void openEnvironment(const std::string& name);
+  /// By what the file is: a scene, a light probe, a preset.
+  void openDropped(const std::string& path);
+  void loadPreset(const std::string& path);
+  void savePreset(const std::string& path);
+  void pick(Side side, const std::string& technique);
+  void setOption(Side side, const std::string& name, const std::string& text);
+  void setSplit(Split split);
+  void setShow(const std::string& name);
+  void setTime(float time_s);
+  void play(bool playing);
+  void frameScene();
+  void resetEdits();
+  void clickAt(const glm::vec2& place);  ///< 0 to 1 of the picture: selects what is there
+  /// Under a name as a preset or the command line has it ("exposure", "env_rotation", "proxies.spheres"). Throws Error.
+  void set(const std::string& name, const std::string& value);
+  void saveScreenshot(const std::string& path);
+  void startVideo(const std::string& path);
+  void stopVideo();
+  /// Something that a picture depends on has changed.
+  void changed();
+  void say(const std::string& text, bool problem = false);
+
+  /// Takes what the threads finished, asks for the next picture: once a frame of the window, with the size of the picture's place.
+  void update(int width, int height);
+  bool idle()
+      const;  ///< the newest picture is shown at the size it keeps, and nothing runs in the background
+  bool moving() const;
+
+  // ---- What is there.
+  ViewState state;
+  CameraControl camera;
+  Pick wanted[2];  ///< what was picked; `state` follows when all that it needs is there
+  ReferenceChoice reference_choice;
+  Resolution resolution;
+  bool playing = false, dragging = false;
+  float divider = 0.5f;  ///< of a split screen, 0 to 1
+  float speed = 1.0f;
+  int selected_node = kNone;
+  std::string environment_name, scene_name;
+  std::vector<std::string> light_texts;
+
+  const Drawn* drawn() const { return drawn_.get(); }
+  std::shared_ptr<const Drawn> drawnShared() const { return drawn_; }
+  const ReferenceView* reference() const { return reference_.get(); }
+  const FrameHistory& history() const { return history_; }
+  const std::deque<Message>& messages() const { return messages_; }
+  const RecentFiles& recent() const { return recent_; }
+  Jobs::Status job() const { return jobs_.status(); }
+  void cancelJob() { jobs_.cancel(); }
+  bool waitsFor(Side side) const;  ///< the technique that was picked is still being prepared
+  float duration_s() const { return duration_s_; }
+  float aspect() const { return height_ > 0 ? float(width_) / float(height_) : 1.0f; }
+  std::uint64_t pictureRevision() const { return picture_revision_; }
+  int pictures() const { return worker_.pictures(); }
+  int slowestResponse() const {
+    return slowest_response_;
+  }                                                   ///< pictures from an input to the one that shows it
+  double lastSwitchMs() const { return switch_ms_; }  ///< from picking a technique to its picture
+  bool recording() const { return video_ != nullptr; }
+  std::string fatal;  ///< why there is nothing to show at all
+  int validationMessages() const { return worker_.validationMessages(); }
+  void loseDevice();
+  cli::Json stats(double ui_device_ms, int ui_objects) const;
+  double now_s() const;
+
+ private:
+  struct Opened;
+  void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const Environment> base,
+             const PosedCamera& camera);
+  void adoptChoice(const ViewerChoice& choice);
+  void prepare();
+  void startBake(const Pick& pick);
+  void startSpheres(int count, bool emission);
+  void takePicks();
+  void takeDrawn();
+  void takeReference();
+  void advance();
+  void requestPicture();
+  void followReference();
+  void select(const Drawn& drawn);
+
+  ViewerChoice choice_;
+  RecentFiles recent_;
+  std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0, traced_serial_ = 0;
+  std::uint64_t picture_revision_ = 0;
+  int width_ = 0, height_ = 0, sent_width_ = 0, sent_height_ = 0, still_width_ = 0, still_height_ = 0;
+  double last_change_s_ = -10.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0, switch_started_s_ = -1.0;
+  double switch_ms_ = 0.0;
+  std::uint64_t response_serial_ = 0;
+  int response_from_ = 0, slowest_response_ = 0;
+  std::uint64_t switch_serial_ = 0;
+  float duration_s_ = 0.0f;
+  bool preparing_ = false, first_ = true;
+  std::optional<glm::vec2> click_;
+  std::deque<Message> messages_;
+  FrameHistory history_;
+  std::shared_ptr<const Drawn> drawn_;
+  std::shared_ptr<const ReferenceView> reference_;
+  std::unique_ptr<VideoCapture> video_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  // Threads last: they end before what they write to.
+  Jobs jobs_;
+  DrawWorker worker_;
+  ReferenceWorker tracer_;
+};
+
+}  // namespace gloam::view

@@ -1,0 +1,181 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What happens every frame of the window: results are taken, the next picture is asked for.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "session.h"
+#include "show.h"
+
+namespace gloam::view {
+namespace {
+
+constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
+
+}  // namespace
+
+void Session::update(int width, int height) {
+  width_ = width;
+  height_ = height;
+  for (const std::string& remark : jobs_.take()) say(remark);
+  if (!preparing_ && now_s() - last_pick_s_ > kSettleSeconds) prepare();
+  takeDrawn();
+  takeReference();
+  advance();
+  requestPicture();
+  followReference();
+}
+
+void Session::takeDrawn() {
+  std::shared_ptr<const Drawn> drawn = worker_.take();
+  if (!drawn) return;
+  if (!drawn->error.empty()) {
+    say(drawn->error, true);
+    if (drawn->error.find("device was lost") != std::string::npos) {
+      say("the renderer starts anew");
+      ++serial_;
+    }
+    if (!drawn_) fatal = drawn->error;
+    return;
+  }
+  for (const std::string& warning : drawn->warnings) {
+    const bool said = std::ranges::any_of(messages_, [&](const Message& m) { return m.text == warning; });
+    if (!said) say(warning);
+  }
+  resolution.add(double(drawn->width) * drawn->height, drawn->left.frame_ms + drawn->right.frame_ms);
+  history_.add(*drawn);
+  if (state.display.auto_exposure) state.display = drawn->display;
+  if (response_serial_ != 0 && drawn->serial >= response_serial_) {
+    slowest_response_ = std::max(slowest_response_, worker_.pictures() - response_from_);
+    response_serial_ = 0;
+  }
+  if (switch_started_s_ >= 0.0 && drawn->technique == wanted[kLeft].info->name) {
+    switch_ms_ = (now_s() - switch_started_s_) * 1000.0;
+    switch_started_s_ = -1.0;
+  }
+  drawn_ = std::move(drawn);
+  ++picture_revision_;
+  if (click_) select(*drawn_);
+  if (!video_) return;
+  try {
+    const LayeredImage* right = drawn_->split ? drawn_->right.layers.get() : nullptr;
+    video_->add(*drawn_, right, divider);
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+    video_.reset();
+  }
+}
+
+/// The node of the surface that was clicked.
+void Session::select(const Drawn& drawn) {
+  const Layer* objects = drawn.left.layers->find("object");
+  if (objects == nullptr) return;
+  const glm::vec2 place = *std::exchange(click_, std::nullopt);
+  const int x = std::clamp(int(place.x * float(drawn.width)), 0, drawn.width - 1);
+  const int y = std::clamp(int(place.y * float(drawn.height)), 0, drawn.height - 1);
+  const std::uint32_t id = objects->ids[std::size_t(y) * std::size_t(drawn.width) + std::size_t(x)];
+  selected_node = id > 0 && id <= state.scene->instance_nodes.size()
+                      ? state.scene->instance_nodes[std::size_t(id - 1)]
+                      : kNone;
+}
+
+void Session::takeReference() {
+  if (auto reference = tracer_.take()) {
+    if (!reference->problem.empty()) say(reference->problem, true);
+    if (state.split != Split::kReference) return;
+    reference_ = std::move(reference);
+    ++picture_revision_;
+  }
+}
+
+/// By the clock while it plays, a picture at a time; by even steps while a video is taken.
+void Session::advance() {
+  const double now = now_s();
+  if (!playing) {
+    if (video_ && !worker_.busy() && drawn_ && drawn_->serial == serial_) changed();  // the next frame
+    return;
+  }
+  if (worker_.busy()) return;
+  const double step = video_ ? 1.0 / double(VideoCapture::kFramesPerSecond) : (now - last_advance_s_);
+  last_advance_s_ = now;
+  const float length = duration_s_ > 0.0f ? duration_s_ : 1e6f;
+  state.time_s = std::fmod(state.time_s + float(step) * speed, length);
+  changed();
+}
+
+void Session::requestPicture() {
+  if (!state.scene || width_ <= 0 || height_ <= 0) return;
+  const bool moves = moving() && !video_;
+  // What stands still is drawn once at the size that it keeps: times that vary do not draw it again and again.
+  if (!moves && still_serial_ == serial_ && still_width_ == width_ && still_height_ == height_) return;
+  if (worker_.busy() && sent_serial_ == serial_) return;
+  const float scale = resolution.scale(double(width_) * height_, moves);
+  int width = std::max(1, int(std::lround(float(width_) * scale)));
+  int height = std::max(1, int(std::lround(float(height_) * scale)));
+  if (video_ && video_->frames() > 0 && drawn_) width = drawn_->width, height = drawn_->height;
+  if (sent_serial_ == serial_ && sent_width_ == width && sent_height_ == height) {
+    if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
+    return;
+  }
+  takePicks();
+  state.width = width;
+  state.height = height;
+  state.camera = camera.posed();
+  worker_.request(serial_, state);
+  sent_serial_ = serial_;
+  sent_width_ = width;
+  sent_height_ = height;
+  if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
+}
+
+/// The path tracer begins when the picture stands still, and ends when anything moves.
+void Session::followReference() {
+  if (state.split != Split::kReference || !drawn_) return;
+  if (moving() || drawn_->serial != serial_) {
+    if (traced_serial_ != 0) tracer_.stop();
+    traced_serial_ = 0;
+    return;
+  }
+  if (traced_serial_ == serial_ || still_serial_ != serial_ || worker_.busy()) return;
+  traced_serial_ = serial_;
+  const Pick& pick = state.left;
+  const Coverage light = reference_choice.same_light ? coverageWith(*pick.info, pick.settings) : kAllLight;
+  tracer_.start(state, drawn_, light, reference_choice.bounces, reference_choice.samples);
+}
+
+bool Session::idle() const {
+  return !jobs_.status().busy && !preparing_ && !worker_.busy() && !moving() && drawn_ &&
+         drawn_->serial == serial_ && still_serial_ == serial_ && drawn_->width == sent_width_;
+}
+
+cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
+  cli::Json json = drawn_ ? history_.json(*drawn_, scene_name, ui_device_ms) : cli::Json::object();
+  json["pictures"] = worker_.pictures();
+  json["input_to_picture"] = slowest_response_;
+  json["last_switch_ms"] = switch_ms_;
+  json["ui_objects"] = ui_objects;
+  json["camera"] = {{"eye", cli::shortest(camera.eye())}, {"target", cli::shortest(camera.target())}};
+  json["time_s"] = cli::shortest(state.time_s);
+  json["exposure"] = cli::shortest(state.display.exposure_stops);
+  json["show"] = state.show;
+  json["environment"] = state.base ? state.base->name : "";
+  json["env_rotation"] = cli::shortest(state.env_rotation_deg);
+  json["selected"] = selected_node;
+  json["edits"] = state.edits.size();
+  json["waits"] = waitsFor(kLeft) || waitsFor(kRight);
+  if (state.left.info != nullptr) json["settings"] = cli::settingsJson(*state.left.info, state.left.settings);
+  if (reference_) {
+    json["reference"] = {{"samples", reference_->samples}, {"noise", reference_->noise}};
+    if (reference_->error) json["reference"]["relative_rmse"] = reference_->error->relative_rmse;
+  }
+  cli::Json said = cli::Json::array();
+  for (const Message& message : messages_) said.push_back(message.text);
+  json["messages"] = said;
+  return json;
+}
+
+}  // namespace gloam::view

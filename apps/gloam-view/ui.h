@@ -1,0 +1,71 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Panels over a session. One file a subject; all of them only read the session and ask it for things.
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+#include <string>
+
+#include "session.h"
+
+namespace gloam::view {
+
+/// What of the window is the window's alone.
+struct UiState {
+  bool panel = true, inspector = false, quit = false;
+  bool turns = false;  ///< the gizmo rotates instead of moving
+  float scale = 1.0f;
+  double ui_device_ms = 0.0;
+  std::string path;  ///< typed into "open"
+  std::string preset = "preset.json", screenshot = "gloam.png", video = "gloam.mp4";
+  std::string copied;  ///< to the clipboard, by whoever owns it
+};
+
+/// Where the picture stands in the window, in its units.
+struct Place {
+  ImVec2 low{0.0f, 0.0f}, size{0.0f, 0.0f};
+  bool holds(const ImVec2& p) const {
+    return p.x >= low.x && p.y >= low.y && p.x < low.x + size.x && p.y < low.y + size.y;
+  }
+};
+
+void setStyle(float scale);
+/// Letters at that scale; the font of Dear ImGui where DejaVu is not installed. Call before textures are made.
+void loadLetters(float scale);
+
+Place layOut(const UiState& ui, const ImVec2& window);
+void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& window);
+void drawPicture(Session& session, const Place& place);
+/// Status line, messages, progress, play bar: over or under the picture.
+void drawOverlays(Session& session, UiState& ui, const Place& place);
+void drawInspector(Session& session, const UiState& ui, const Place& place);
+/// Handles of what is selected. True while the mouse is theirs.
+bool drawGizmo(Session& session, UiState& ui, const Place& place);
+/// The node of a light whose mark is there, or kNone.
+int lightAt(const Session& session, const Place& place, const ImVec2& at, float scale);
+/// Mouse over the picture and keys.
+void handleInput(Session& session, UiState& ui, const Place& place, bool gizmo_has_mouse);
+
+// Sections of the panel.
+void sceneSection(Session& session, UiState& ui);
+void techniqueSection(Session& session);
+void lightSection(Session& session);
+void cameraSection(Session& session);
+void viewSection(Session& session, UiState& ui);
+void compareSection(Session& session);
+void objectSection(Session& session, UiState& ui);
+void timesSection(Session& session, UiState& ui);
+void saveSection(Session& session, UiState& ui);
+
+// Helpers: a label on the left, the control on the right.
+void label(const char* text, const char* help = nullptr);
+void helpMark(const char* help);
+bool inputPath(const char* id, std::string& text, float width);
+void dim(const std::string& text);
+/// Controls for every option of a technique, from its table.
+void optionControls(Session& session, Side side);
+
+}  // namespace gloam::view

@@ -1,0 +1,155 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Mouse over the picture, and keys (docs/viewer.md lists them).
+#include <GLFW/glfw3.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui.h"
+
+namespace gloam::view {
+namespace {
+
+constexpr float kRadiansAPixel = 0.006f, kClickPixels = 4.0f;
+
+bool pressed(int key) {
+  return ImGui::IsKeyPressed(key, false);
+}
+
+bool onDivider(const Session& session, const Place& place, const ImVec2& at, float scale) {
+  if (session.state.split == Split::kNone || !place.holds(at)) return false;
+  return std::abs(at.x - place.low.x - session.divider * place.size.x) < 7.0f * scale;
+}
+
+/// What the button that is down holds, decided where it went down.
+enum class Grip { kNone, kPicture, kDivider, kElsewhere };
+
+void drag(Session& session, const Place& place, Grip grip, int button) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (grip == Grip::kDivider) {
+    session.divider = std::clamp((io.MousePos.x - place.low.x) / std::max(place.size.x, 1.0f), 0.0f, 1.0f);
+    return;
+  }
+  const glm::vec2 moved(io.MouseDelta.x, io.MouseDelta.y);
+  if (grip != Grip::kPicture || (moved.x == 0.0f && moved.y == 0.0f)) return;
+  if (button == ImGuiMouseButton_Right) {
+    session.camera.look({moved.x * kRadiansAPixel * 0.6f, -moved.y * kRadiansAPixel * 0.6f});
+  } else if (button == ImGuiMouseButton_Middle || io.KeyShift) {
+    session.camera.pan({-moved.x / std::max(place.size.y, 1.0f), moved.y / std::max(place.size.y, 1.0f)});
+  } else {
+    session.camera.orbit({moved.x * kRadiansAPixel, moved.y * kRadiansAPixel});
+  }
+  session.changed();
+}
+
+void mouse(Session& session, UiState& ui, const Place& place, bool gizmo_has_mouse) {
+  const ImGuiIO& io = ImGui::GetIO();
+  static Grip grips[3] = {};
+  bool any = false;
+  for (int button = 0; button < 3; ++button) {
+    Grip& grip = grips[button];
+    if (ImGui::IsMouseClicked(button)) {
+      const bool mine = place.holds(io.MousePos) && !io.WantCaptureMouse && !gizmo_has_mouse;
+      grip = !mine                                                             ? Grip::kElsewhere
+             : button == 0 && onDivider(session, place, io.MousePos, ui.scale) ? Grip::kDivider
+                                                                               : Grip::kPicture;
+    }
+    if (io.MouseDown[button]) {
+      drag(session, place, grip, button);
+      any |= grip == Grip::kPicture;
+    } else {
+      const ImVec2 from = io.MouseClickedPos[button];
+      const float far = std::hypot(io.MousePos.x - from.x, io.MousePos.y - from.y);
+      if (grip == Grip::kPicture && button == 0 && ImGui::IsMouseReleased(button) && far < kClickPixels &&
+          place.size.x > 0.0f) {
+        const int light = lightAt(session, place, io.MousePos, ui.scale);
+        if (light != kNone) {
+          session.selected_node = light;
+        } else {
+          session.clickAt(
+              {(io.MousePos.x - place.low.x) / place.size.x, (io.MousePos.y - place.low.y) / place.size.y});
+        }
+      }
+      grip = Grip::kNone;
+    }
+  }
+  session.dragging = any || gizmo_has_mouse;
+  if (place.holds(io.MousePos) && !io.WantCaptureMouse && io.MouseWheel != 0.0f) {
+    session.camera.zoom(io.MouseWheel);
+    session.changed();
+  }
+  if (onDivider(session, place, io.MousePos, ui.scale) && !io.WantCaptureMouse)
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+}
+
+void fly(Session& session) {
+  const ImGuiIO& io = ImGui::GetIO();
+  glm::vec3 way(0.0f);
+  const auto held = [](int key) { return ImGui::IsKeyDown(key) ? 1.0f : 0.0f; };
+  way.x = held(GLFW_KEY_D) - held(GLFW_KEY_A);
+  way.y = held(GLFW_KEY_E) - held(GLFW_KEY_Q);
+  way.z = held(GLFW_KEY_W) - held(GLFW_KEY_S);
+  if (way == glm::vec3(0.0f) || io.KeyCtrl) return;
+  const float speed = session.camera.sceneSize() * 0.25f * (io.KeyShift ? 4.0f : 1.0f);
+  session.camera.fly(way * speed * std::min(io.DeltaTime, 0.1f));
+  session.changed();
+}
+
+void lightKeys(Session& session) {
+  ViewState& state = session.state;
+  const float stops = (ImGui::IsKeyPressed(GLFW_KEY_RIGHT_BRACKET) ? 0.25f : 0.0f) -
+                      (ImGui::IsKeyPressed(GLFW_KEY_LEFT_BRACKET) ? 0.25f : 0.0f);
+  const float degrees = (ImGui::IsKeyPressed(GLFW_KEY_PERIOD) ? 5.0f : 0.0f) -
+                        (ImGui::IsKeyPressed(GLFW_KEY_COMMA) ? 5.0f : 0.0f);
+  if (stops == 0.0f && degrees == 0.0f) return;
+  state.display.exposure_stops = std::clamp(state.display.exposure_stops + stops, -50.0f, 50.0f);
+  state.env_rotation_deg = std::remainder(state.env_rotation_deg + degrees, 360.0f);
+  session.changed();
+}
+
+void timeKeys(Session& session) {
+  if (pressed(GLFW_KEY_SPACE)) session.play(!session.playing);
+  const float step = (ImGui::IsKeyPressed(GLFW_KEY_RIGHT) ? 1.0f : 0.0f) -
+                     (ImGui::IsKeyPressed(GLFW_KEY_LEFT) ? 1.0f : 0.0f);
+  if (step == 0.0f || session.duration_s() <= 0.0f) return;
+  session.playing = false;
+  session.setTime(session.state.time_s + step / 30.0f);
+}
+
+void keys(Session& session, UiState& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) return;
+  if (pressed(GLFW_KEY_TAB)) ui.panel = !ui.panel;
+  if (io.KeyCtrl && pressed(GLFW_KEY_Q)) ui.quit = true;
+  if (pressed(GLFW_KEY_F)) session.frameScene();
+  if (pressed(GLFW_KEY_G)) ui.turns = !ui.turns;
+  if (pressed(GLFW_KEY_C) && !io.KeyCtrl) session.setSplit(Split((int(session.state.split) + 1) % 3));
+  if (pressed(GLFW_KEY_ESCAPE)) session.selected_node = kNone;
+  if (pressed(GLFW_KEY_F2)) session.saveScreenshot(ui.screenshot);
+  if (pressed(GLFW_KEY_F3)) session.recording() ? session.stopVideo() : session.startVideo(ui.video);
+  if (pressed(GLFW_KEY_F5)) session.savePreset(ui.preset);
+  if (pressed(GLFW_KEY_F9)) session.loadPreset(ui.preset);
+  if (pressed(GLFW_KEY_I)) {
+    ui.inspector = !ui.inspector;
+    session.state.layers = ui.inspector;
+    session.changed();
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(techniques().size(), 9); ++i) {
+    if (pressed(GLFW_KEY_1 + int(i))) session.pick(kLeft, techniques()[i].name);
+  }
+  timeKeys(session);
+  lightKeys(session);
+  fly(session);
+}
+
+}  // namespace
+
+void handleInput(Session& session, UiState& ui, const Place& place, bool gizmo_has_mouse) {
+  mouse(session, ui, place, gizmo_has_mouse);
+  keys(session, ui);
+}
+
+}  // namespace gloam::view

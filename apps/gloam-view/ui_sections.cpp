@@ -1,0 +1,169 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The panel's lower sections: comparison, objects, times and memory, what is saved.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "ui.h"
+
+namespace gloam::view {
+namespace {
+
+void row(const char* name, const std::string& value) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextUnformatted(name);
+  ImGui::PopStyleColor();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(value.c_str());
+}
+
+void referenceControls(Session& session) {
+  ReferenceChoice& choice = session.reference_choice;
+  bool anew = false;
+  label("bounces", "surfaces between the first one that light meets and the one that is seen");
+  anew |= ImGui::SliderInt("##bounces", &choice.bounces, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
+  label("same light", "only the light that the technique computes; else all of it");
+  anew |= ImGui::Checkbox("##same", &choice.same_light);
+  if (anew) session.setSplit(Split::kReference);
+  const ReferenceView* reference = session.reference();
+  if (reference == nullptr) return dim("begins when the picture stands still");
+  if (!ImGui::BeginTable("errors", 2)) return;
+  row("samples a pixel", std::to_string(reference->samples));
+  row("its noise", fmt::format("{:.2f} %", reference->noise * 100.0));
+  if (reference->error) {
+    const Metrics& e = *reference->error;
+    row("relative RMSE", fmt::format("{:.2f} %", e.relative_rmse * 100.0));
+    row("gained or lost", fmt::format("{:+.2f} %", e.relative_signed_error * 100.0));
+    row("FLIP", fmt::format("{:.3f}", e.flip));
+    row("SSIM", fmt::format("{:.3f}", e.ssim));
+  }
+  row("traced", fmt::format("{:.1f} s", reference->seconds));
+  ImGui::EndTable();
+}
+
+std::string nodeName(const Scene& scene, int node) {
+  const std::string& name = scene.nodes[std::size_t(node)].name;
+  return name.empty() ? fmt::format("node {}", node) : name;
+}
+
+void passTable(const Session& session) {
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  if (!ImGui::BeginTable("passes", 3, kFlags)) return;
+  ImGui::TableSetupColumn("pass", 0, 3.0f);
+  ImGui::TableSetupColumn("median ms", 0, 1.25f);
+  ImGui::TableSetupColumn("p95", 0, 1.0f);
+  ImGui::TableHeadersRow();
+  for (const FrameHistory::Row& pass : session.history().rows()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(pass.name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", pass.median_ms);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", pass.p95_ms);
+  }
+  ImGui::EndTable();
+}
+
+void memoryTable(const Drawn& drawn) {
+  if (!ImGui::TreeNode("memory", "Device memory: %s", cli::bytesText(double(drawn.memory_bytes)).c_str()))
+    return;
+  if (ImGui::BeginTable("memory", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    for (const MemoryUse& use : drawn.memory) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(use.name.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(cli::bytesText(double(use.bytes)).c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::TreePop();
+}
+
+}  // namespace
+
+void compareSection(Session& session) {
+  int split = int(session.state.split);
+  label("beside it");
+  if (ImGui::Combo("##split", &split, "nothing\0a technique\0the reference\0"))
+    session.setSplit(Split(split));
+  if (session.state.split == Split::kReference) referenceControls(session);
+  if (session.state.split != Split::kTechnique) return;
+  label("technique");
+  if (ImGui::BeginCombo("##right", session.wanted[kRight].info->name)) {
+    for (const TechniqueInfo& info : techniques()) {
+      if (ImGui::Selectable(info.name, &info == session.wanted[kRight].info)) session.pick(kRight, info.name);
+      if (ImGui::IsItemHovered()) helpMark(info.summary);
+    }
+    ImGui::EndCombo();
+  }
+  if (session.waitsFor(kRight)) dim("being prepared");
+  optionControls(session, kRight);
+}
+
+void objectSection(Session& session, UiState& ui) {
+  int turns = ui.turns ? 1 : 0;
+  label("handles", "G changes them");
+  if (ImGui::Combo("##handles", &turns, "move\0turn\0")) ui.turns = turns == 1;
+  if (!session.state.scene) return;
+  const LoadedScene& loaded = *session.state.scene;
+  if (session.selected_node != kNone) {
+    ImGui::TextUnformatted(nodeName(loaded.scene, session.selected_node).c_str());
+  } else {
+    dim("Click a thing in the picture, or choose a light.");
+  }
+  for (const int node : loaded.light_nodes) {
+    const std::string text = fmt::format("light: {}##{}", nodeName(loaded.scene, node), node);
+    if (ImGui::Selectable(text.c_str(), session.selected_node == node)) session.selected_node = node;
+  }
+  if (!session.state.edits.empty() && ImGui::Button("Put everything back")) session.resetEdits();
+}
+
+void timesSection(Session& session, UiState& ui) {
+  const Drawn* drawn = session.drawn();
+  if (drawn == nullptr) return;
+  const std::vector<float> values = session.history().frameMs();
+  const float most = values.empty() ? 1.0f : *std::ranges::max_element(values);
+  const std::string text =
+      fmt::format("{:.1f} ms, p95 {:.1f}", session.history().medianMs(), session.history().p95Ms());
+  ImGui::PlotLines("##frames", values.data(), int(values.size()), 0, text.c_str(), 0.0f, most * 1.25f,
+                   {-1.0f, 56.0f * ui.scale});
+  dim(fmt::format("{} x {}, {}", drawn->width, drawn->height, drawn->device.name));
+  passTable(session);
+  memoryTable(*drawn);
+  dim(fmt::format("panels: {:.2f} ms of the device", ui.ui_device_ms));
+  dim(fmt::format("input to picture: {} at most; last switch {:.0f} ms", session.slowestResponse(),
+                  session.lastSwitchMs()));
+  if (ImGui::Button("Copy as JSON")) {
+    ui.copied = cli::jsonText(session.history().json(*drawn, session.scene_name, ui.ui_device_ms));
+    session.say("times are on the clipboard");
+  }
+}
+
+void saveSection(Session& session, UiState& ui) {
+  const float button = 86.0f * ui.scale;
+  const auto line = [&](const char* id, std::string& path, const char* verb) {
+    inputPath(id, path, -button - ImGui::GetStyle().ItemSpacing.x);
+    ImGui::SameLine();
+    ImGui::PushID(id);
+    const bool pressed = ImGui::Button(verb, {button, 0.0f}) && !path.empty();
+    ImGui::PopID();
+    return pressed;
+  };
+  dim("picture, .png or .exr (F2)");
+  if (line("##picture", ui.screenshot, "Save")) session.saveScreenshot(ui.screenshot);
+  dim("video, .mp4 (F3)");
+  if (line("##video", ui.video, session.recording() ? "Stop" : "Record")) {
+    session.recording() ? session.stopVideo() : session.startVideo(ui.video);
+  }
+  dim("preset, for gloam render --settings too");
+  if (line("##preset", ui.preset, "Save")) session.savePreset(ui.preset);
+  if (ImGui::Button("Load preset")) session.loadPreset(ui.preset);
+}
+
+}  // namespace gloam::view

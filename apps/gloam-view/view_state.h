@@ -1,0 +1,75 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// All that a picture depends on, as plain data: the window changes it, the thread that draws gets copies.
+#pragma once
+
+#include <gloam/lights.h>
+#include <gloam/renderer.h>
+#include <gloam/spheres.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "technique_needs.h"
+
+namespace gloam::view {
+
+/// A scene with what was baked of it. Never changed once others see it: what is baked later makes a new one.
+struct LoadedScene {
+  std::string name;  ///< as it was asked for: a file or builtin:NAME
+  bool ground = false;
+  Scene scene;
+  std::vector<int> light_nodes;         ///< nodes of PosedScene::lights, in that order
+  std::vector<int> instance_nodes;      ///< of PosedScene::instances
+  std::vector<glm::vec3> mesh_middles;  ///< of each mesh's box, in its own axes
+};
+/// Fills in what follows from the scene.
+std::shared_ptr<const LoadedScene> makeLoadedScene(std::string name, bool ground, Scene scene);
+
+/// How a hand moved a node: a motion of the world, on top of where scene and animation put it.
+struct NodeEdit {
+  glm::mat4 world_from_placed{1.0f};
+};
+using NodeEdits = std::map<int, NodeEdit>;
+
+/// A technique with its options.
+struct Pick {
+  const TechniqueInfo* info = nullptr;
+  Settings settings;
+};
+
+enum class Split { kNone, kTechnique, kReference };
+
+struct ViewState {
+  std::shared_ptr<const LoadedScene> scene;
+  Needs needs;                              ///< spheres and the like, of that scene
+  std::shared_ptr<const Environment> base;  ///< light from afar before `env_rotation_deg` and `env_intensity`
+  float env_rotation_deg = 0.0f, env_intensity = 1.0f;
+  AnimatedLights lights;
+  NodeEdits edits;
+  float time_s = 0.0f;
+  PosedCamera camera;
+  Pick left, right;
+  Split split = Split::kNone;
+  std::string show;  ///< a layer or an image of the technique; empty: the light
+  int width = 0, height = 0;
+  int supersample = 1;
+  bool background = true;
+  bool layers = false;  ///< normal, depth, albedo, object: for the inspector and for picking
+  DisplayOptions display;
+};
+
+/// All motions of a node and of those above it, together; the identity for kNone.
+glm::mat4 motionOf(const Scene& scene, const NodeEdits& edits, int node);
+/// Moves a node on, in the world.
+void moveNode(const Scene& scene, NodeEdits& edits, int node, const glm::mat4& motion);
+/// The scene at its time, moved as the hand moved it.
+PosedScene poseEdited(const LoadedScene& loaded, const NodeEdits& edits, float time_s);
+/// Middles of all instances as they stand.
+std::vector<glm::vec3> instancePlaces(const LoadedScene& loaded, const PosedScene& posed);
+/// The light at its time, turned and scaled.
+Environment environmentOf(const ViewState& state);
+
+}  // namespace gloam::view
