@@ -44,7 +44,7 @@ std::string defaultOutput(const RenderChoice& choice) {
 struct Stage {
   Scene scene;
   const TechniqueInfo* technique = nullptr;
-  Environment base, environment;  ///< without --light, and with it in the first frame
+  DistantLight base;  ///< light without --light
   PosedCamera camera;
   RenderOptions options;
 };
@@ -54,8 +54,7 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.scene = loadSceneToDraw(choice.scene, console);
   stage.technique = &chooseTechnique(choice.technique, stage.scene);
   stage.options.settings = settingsFor(*stage.technique, choice.technique);
-  stage.base = chooseBaseEnvironment(stage.scene, choice.light, console);
-  stage.environment = environmentAt(stage.base, choice.light, first_time_s);
+  stage.base = mapLight(chooseBaseEnvironment(stage.scene, choice.light, console));
   stage.camera = chooseCamera(pose(stage.scene, first_time_s), choice.view, console);
   if (choice.motion.animate && stage.scene.animations.empty() && !choice.light.lights.moves()) {
     console.remark("--animate: the scene holds no animation");
@@ -92,7 +91,7 @@ void printResult(const RenderChoice& choice, const Stage& stage, const Renderer&
   Json outputs = Json::array();
   for (const auto& file : files) outputs.push_back(file.string());
   console.print(jsonText({{"scene", choice.scene.name},
-                          {"environment", stage.environment.name},
+                          {"environment", describedAt(stage.base, choice.light, choice.view.time_s).name},
                           {"technique", stage.technique->name},
                           {"settings", settingsJson(*stage.technique, stage.options.settings)},
                           {"device", renderer.device().name},
@@ -115,7 +114,6 @@ int runRender(RenderChoice choice, Console& console) {
   Stage stage = prepareStage(choice, frames.front().time_s, console);
   stage.options.timings = console.json;
   renderer.setScene(stage.scene);
-  renderer.setEnvironment(stage.environment);
   SceneSpheres spheres;
   if (stage.technique->needs_spheres || showsSpheres(choice.layer)) {
     const int count =
@@ -138,10 +136,10 @@ int runRender(RenderChoice choice, Console& console) {
     progress.report(double(i) / double(frames.size()), fmt::format("frame {} of {}", i + 1, frames.size()));
     const PosedScene posed = pose(stage.scene, frames[i].time_s);
     const PosedCamera camera = orbit(stage.camera, posed, frames[i].orbit_rad);
-    if ((choice.motion.turn_sky_deg != 0.0f || choice.light.lights.moves()) && !stage.environment.empty()) {
-      Environment turned = stage.base;
+    if (i == 0 || choice.motion.turn_sky_deg != 0.0f || choice.light.lights.moves()) {
+      DistantLight turned = stage.base;
       turned.rotation_rad += frames[i].sky_rad;
-      renderer.setEnvironment(environmentAt(turned, choice.light, frames[i].time_s));
+      renderer.setEnvironment(describedAt(turned, choice.light, frames[i].time_s));
     }
     const auto started = std::chrono::steady_clock::now();
     RenderedFrame frame = renderer.render(posed, camera, stage.options);

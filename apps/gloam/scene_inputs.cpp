@@ -185,11 +185,24 @@ Environment chooseBaseEnvironment(const Scene& scene, const LightChoice& choice,
   return environment;
 }
 
+static std::string nameOf(const Environment& base, const LightChoice& choice) {
+  if (choice.lights.empty()) return base.name;
+  return base.empty() ? choice.lights.text() : base.name + " + " + choice.lights.text();
+}
+
 Environment environmentAt(const Environment& base, const LightChoice& choice, float time_s) {
   if (choice.lights.empty()) return base;
   Environment painted = paintLights(base, choice.lights.at(time_s));
-  painted.name = base.empty() ? choice.lights.text() : base.name + " + " + choice.lights.text();
+  painted.name = nameOf(base, choice);
   return painted;
+}
+
+Environment describedAt(const DistantLight& base, const LightChoice& choice, float time_s) {
+  std::vector<DistantLight> lights = choice.lights.at(time_s);
+  if (!base.map->empty()) lights.insert(lights.begin(), base);
+  Environment described = describeLights(std::move(lights));
+  described.name = nameOf(*base.map, choice);
+  return described;
 }
 
 Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console, float time_s) {

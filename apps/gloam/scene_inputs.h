@@ -51,6 +51,8 @@ Scene loadSceneToDraw(const SceneChoice& choice, Console& console);
 Environment chooseBaseEnvironment(const Scene& scene, const LightChoice& choice, Console& console);
 /// The base with the lights of --light as they are at that time; the base itself where there are none.
 Environment environmentAt(const Environment& base, const LightChoice& choice, float time_s);
+/// The same to be drawn alone, without texels: microseconds a frame. `base`: mapLight() of the base.
+Environment describedAt(const DistantLight& base, const LightChoice& choice, float time_s);
 /// Both.
 Environment chooseEnvironment(const Scene& scene, const LightChoice& choice, Console& console,
                               float time_s = 0.0f);

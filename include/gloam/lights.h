@@ -62,10 +62,18 @@ class AnimatedLights {
   std::vector<std::shared_ptr<const Light>> lights_;
 };
 
-/// What an environment was painted from: its spherical harmonics of order 6, before its rotation and intensity.
+/// What an environment was painted from, before its rotation and intensity.
 struct EnvironmentLights {
-  sh::ShRgb sh;
+  sh::ShRgb sh;                      ///< of order 6
+  std::vector<DistantLight> lights;  ///< all of them, where describeLights() left `radiance` empty; else none
 };
+
+/// The lights as an Environment without texels, for Renderer::setEnvironment: a change of light costs microseconds, whatever
+/// is drawn. Where they are seen, discs are drawn as they are; a single map is uploaded once, however it turns and fades; what
+/// else there is gets painted in the first frame that shows it. The path tracer wants paintLights().
+Environment describeLights(std::vector<DistantLight> lights);
+/// An environment as one light of several, projected once. An empty one is a map of black.
+DistantLight mapLight(Environment environment);
 
 /// `base` (may be empty) with the lights added, to look at and to trace: an equirectangular map in which each disc covers
 /// its exact share of every texel, as fine as the smallest disc needs (3 texels across, at most 4096 x 2048). `base` keeps its

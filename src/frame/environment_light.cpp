@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "frame/environment_light.h"
 
-#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
-#include "gpu/format.h"
 #include "math/brdf.h"
 #include "scene/environment.h"
 
@@ -14,7 +13,8 @@ namespace gloam::frame {
 
 namespace {
 constexpr float kLargestHalf = 65504.0f;
-}
+constexpr int kGlossSide = kGlossSize + 2;
+}  // namespace
 
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window) {
   const sh::ShRgb bands = sh::truncated(light, order);
@@ -53,55 +53,70 @@ glm::vec3 octahedralDirection(glm::vec2 p) {
   return glm::normalize(glm::vec3(folded, z));
 }
 
-gpu::Image glossTable(gpu::Device& device, const sh::ShRgb& light) {
-  constexpr int kSide = kGlossSize + 2;
-  std::vector<float> texels;
-  for (int slice = 0; slice < kGlossSlices; ++slice) {
-    const float exponent = std::pow(kSharpestGloss, float(slice) / float(kGlossSlices - 1));
-    const sh::ShRgb seen = sh::convolve(light, brdf::phongZonal(sh::kMaxOrder, exponent));
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
+/// The basis at each texel of a slice.
+const std::vector<sh::Sh>& glossBasis() {
+  static const std::vector<sh::Sh> basis = [] {
+    std::vector<sh::Sh> rows;
+    for (int y = 0; y < kGlossSide; ++y) {
+      for (int x = 0; x < kGlossSide; ++x) {
         const glm::vec2 place = (glm::vec2(x, y) - 0.5f) / float(kGlossSize) * 2.0f - 1.0f;
-        const glm::vec3 radiance =
-            glm::clamp(sh::valueAt(seen, octahedralDirection(place)), 0.0f, kLargestHalf);
-        texels.insert(texels.end(), {radiance.r, radiance.g, radiance.b, 1.0f});
+        rows.push_back(sh::evaluate(sh::kMaxOrder, octahedralDirection(place)));
       }
     }
+    return rows;
+  }();
+  return basis;
+}
+
+/// Slices differ by the factors of bands alone.
+std::vector<float> glossTexels(const sh::ShRgb& light) {
+  const std::vector<sh::Sh>& basis = glossBasis();
+  std::array<std::array<float, sh::kMaxOrder>, kGlossSlices> factors;
+  for (int slice = 0; slice < kGlossSlices; ++slice) {
+    const float exponent = std::pow(kSharpestGloss, float(slice) / float(kGlossSlices - 1));
+    for (int l = 0; l < sh::kMaxOrder; ++l)
+      factors[std::size_t(slice)][std::size_t(l)] = brdf::phongBandFactor(l, exponent);
   }
-  gpu::Image table(
-      device, "frame.gloss",
-      {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = kSide, .height = kSide, .depth = kGlossSlices});
-  table.uploadFloats(texels);
-  return table;
+  std::vector<float> texels(basis.size() * kGlossSlices * 4, 1.0f);
+  for (std::size_t t = 0; t < basis.size(); ++t) {
+    std::array<glm::vec3, sh::kMaxOrder> bands{};
+    for (int l = 0; l < sh::kMaxOrder; ++l) {
+      for (int i = l * l; i < (l + 1) * (l + 1); ++i) bands[std::size_t(l)] += basis[t][i] * light[i];
+    }
+    for (std::size_t slice = 0; slice < kGlossSlices; ++slice) {
+      glm::vec3 sum(0.0f);
+      for (std::size_t l = 0; l < bands.size(); ++l) sum += factors[slice][l] * bands[l];
+      const glm::vec3 radiance = glm::clamp(sum, 0.0f, kLargestHalf);
+      for (int c = 0; c < 3; ++c) texels[4 * (slice * basis.size() + t) + std::size_t(c)] = radiance[c];
+    }
+  }
+  return texels;
 }
 
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(gpu::Device& device, const Environment& environment)
-    : sh_(projectEnvironment(environment, sh::kMaxOrder)) {
+    : picture_(device),
+      gloss_(device, "frame.gloss",
+             {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+              .width = kGlossSide,
+              .height = kGlossSide,
+              .depth = kGlossSlices}) {
+  gloss_.uploadFloats(std::vector<float>(std::size_t(kGlossSide) * kGlossSide * kGlossSlices * 4, 0.0f));
+  set(environment);
+}
+
+void EnvironmentLight::set(const Environment& environment) {
   static std::atomic<std::uint64_t> last_revision{0};
+  picture_.set(environment);
+  sh_ = projectEnvironment(environment, sh::kMaxOrder);
   revision_ = ++last_revision;
-  gloss_ = glossTable(device, environment.empty() ? sh_ : lightForGloss(sh_));
-  row_.cos_rotation = std::cos(environment.rotation_rad);
-  row_.sin_rotation = std::sin(environment.rotation_rad);
-  row_.intensity = environment.intensity;
-  row_.map_width = float(environment.width);
-  row_.map_height = float(environment.height);
-  gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .mips = gpu::kAllMips};
-  std::vector<std::uint16_t> halves(4, 0);
-  if (!environment.empty()) {
-    desc.width = environment.width;
-    desc.height = environment.height;
-    halves.resize(environment.radiance.size() * 4);
-    for (std::size_t i = 0; i < environment.radiance.size(); ++i) {
-      for (int c = 0; c < 3; ++c)
-        halves[4 * i + std::size_t(c)] =
-            gpu::halfFromFloat(std::min(environment.radiance[i][c], kLargestHalf));
-    }
-  }
-  map_ = gpu::Image(device, "frame.environment", desc);
-  map_.upload(halves);
-  map_.generateMips();
+}
+
+const gpu::Image& EnvironmentLight::gloss() const {
+  if (gloss_revision_ != revision_) gloss_.uploadFloats(glossTexels(empty() ? sh_ : lightForGloss(sh_)));
+  gloss_revision_ = revision_;
+  return gloss_;
 }
 
 }  // namespace gloam::frame

@@ -5,8 +5,7 @@
 #include <gloam/scene.h>
 #include <gloam/sh.h>
 
-#include "frame/frame_shared.h"
-#include "gpu/image.h"
+#include "frame/environment_picture.h"
 
 namespace gloam::frame {
 
@@ -16,31 +15,34 @@ enum class Window : std::uint8_t { kNone, kHann, kLanczos, kAuto };
 /// non-negative.
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window);
 
-/// Distant light on the device: its picture for the background and order-6 SH for the rest.
+/// Distant light on the device: order-6 SH for what is lit, tables and pictures made when they are first looked at.
 class EnvironmentLight {
  public:
   /// No light from afar.
   explicit EnvironmentLight(gpu::Device& device) : EnvironmentLight(device, Environment{}) {}
   /// Throws Error where the map is larger than an image of this device may be.
   EnvironmentLight(gpu::Device& device, const Environment& environment);
+  /// Another light, with as much of what is on the device as it shares with the last.
+  void set(const Environment& environment);
 
-  /// Another number for every light that is made, of any device.
+  /// Another number for every light that is set, of any device.
   std::uint64_t revision() const { return revision_; }
-  bool empty() const { return row_.map_width == 0.0f; }
+  bool empty() const { return picture_.empty(); }
   /// Radiance, order 6, as projected: rotation and intensity are applied, no window.
   const sh::ShRgb& sh() const { return sh_; }
-  const EnvironmentRow& row() const { return row_; }
-  /// Equirectangular, half floats, with mips. Radiance beyond 65504 is clipped there (in sh() it is not).
-  const gpu::Image& map() const { return map_; }
+  const EnvironmentPicture& picture() const { return picture_; }
   /// Light through unshadowed Phong lobes by mirror direction and exponent (frame/gloss.glsl reads it), from
   /// sh(), damped as little as keeps what the sharpest lobe shows non-negative.
-  const gpu::Image& gloss() const { return gloss_; }
+  const gpu::Image& gloss() const;
+  /// Any image that may stand in its place where it is not looked up.
+  const gpu::Image& anyGloss() const { return gloss_; }
 
  private:
   std::uint64_t revision_ = 0;
   sh::ShRgb sh_;
-  EnvironmentRow row_{};
-  gpu::Image map_, gloss_;
+  EnvironmentPicture picture_;
+  mutable std::uint64_t gloss_revision_ = 0;
+  mutable gpu::Image gloss_;
 };
 
 }  // namespace gloam::frame

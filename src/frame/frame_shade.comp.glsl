@@ -38,6 +38,19 @@ layout(set = 0, binding = 12) uniform writeonly image2D indirect;
 layout(set = 0, binding = 13) uniform sampler3D gloss;
 layout(set = 0, binding = 14) uniform sampler2D gloss_direct;
 layout(set = 0, binding = 15) uniform sampler2D gloss_indirect;
+layout(scalar, set = 0, binding = 16) readonly buffer Discs { DiscRow at[]; } discs;
+
+/// Discs in a direction, antialiased over a pixel's angle; one that is smaller than the pixel keeps its light.
+vec3 discRadiance(vec3 d, float pixel_rad) {
+  vec3 sum = vec3(0.0);
+  for (uint k = 0u; k < environment.row.disc_count; ++k) {
+    DiscRow disc = discs.at[k];
+    float angle = 2.0 * asin(min(0.5 * length(d - disc.direction), 1.0));
+    float width = max(pixel_rad, 1e-5), small = min(2.0 * disc.radius_rad / width, 1.0);
+    sum += small * small * clamp((disc.radius_rad - angle) / width + 0.5, 0.0, 1.0) * disc.radiance;
+  }
+  return sum;
+}
 
 /// The environment's picture in a direction; u = atan2(z, x) / 2 pi + 1/2, v = asin(y) / pi + 1/2 with v up.
 vec3 backgroundRadiance(Ray ray, vec3 step_y) {
@@ -45,8 +58,9 @@ vec3 backgroundRadiance(Ray ray, vec3 step_y) {
   float c = environment.row.cos_rotation, s = environment.row.sin_rotation;
   vec3 turned = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
   vec2 uv = vec2(atan(turned.z, turned.x) / (2.0 * kPi) + 0.5, 0.5 - asin(clamp(turned.y, -1.0, 1.0)) / kPi);
-  float texels = length(step_y) / length(ray.direction) * environment.row.map_height / kPi;  // a pixel's height
-  return environment.row.intensity * textureLod(environment_map, uv, log2(max(texels, 1.0))).rgb;
+  float pixel_rad = length(step_y) / length(ray.direction);
+  float texels = pixel_rad * environment.row.map_height / kPi;  // a pixel's height
+  return environment.row.intensity * textureLod(environment_map, uv, log2(max(texels, 1.0))).rgb + discRadiance(d, pixel_rad);
 }
 
 vec3 fetch(sampler2D image, ivec2 pixel) { return texelFetch(image, min(pixel, textureSize(image, 0) - 1), 0).rgb; }

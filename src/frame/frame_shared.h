@@ -124,10 +124,19 @@ struct EnvironmentRow {
   float cos_rotation;
   float sin_rotation;
   float intensity;
-  float map_width;  // 0: no environment
+  float map_width;
   float map_height;
+  uint disc_count;
 };
-GLOAM_SHARED_SIZE(EnvironmentRow, 20)
+GLOAM_SHARED_SIZE(EnvironmentRow, 24)
+
+/// A disc of even radiance, infinitely far away.
+struct DiscRow {
+  vec3 direction;
+  float radius_rad;
+  vec3 radiance;
+};
+GLOAM_SHARED_SIZE(DiscRow, 28)
 
 GLOAM_SHARED_END
 #endif

@@ -4,8 +4,10 @@
 // What probes need that does not change from frame to frame (SH-2).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "frame/probes.h"
+#include "math/sampling.h"
 
 namespace gloam::frame {
 
@@ -64,7 +66,8 @@ std::vector<float> projectionTable(int size) {
 
 /// The environment's map in memory, small enough to be gone through.
 Environment mapInMemory(const EnvironmentLight& light) {
-  const gpu::Image& map = light.map();
+  const gpu::Image& map = light.picture().map();
+  const EnvironmentRow& row = light.picture().row();
   int mip = 0;
   while ((map.width() >> mip) > kWidestSky && mip + 1 < map.desc().mips) ++mip;
   const std::vector<float> rgba = map.downloadFloats(mip);
@@ -74,9 +77,42 @@ Environment mapInMemory(const EnvironmentLight& light) {
   environment.radiance.resize(rgba.size() / 4);
   for (std::size_t i = 0; i < environment.radiance.size(); ++i)
     environment.radiance[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
-  environment.rotation_rad = std::atan2(light.row().sin_rotation, light.row().cos_rotation);
-  environment.intensity = light.row().intensity;
+  environment.rotation_rad = std::atan2(row.sin_rotation, row.cos_rotation);
+  environment.intensity = row.intensity;
   return environment;
+}
+
+/// A texel of the cube that holds a direction: the inverse of sh::cubeDirection.
+std::size_t cubeTexel(const glm::vec3& d, int size) {
+  const glm::vec3 a = glm::abs(d);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
+  const int face = 2 * axis + (d[axis] < 0.0f ? 1 : 0);
+  const glm::vec3 p = d / a[axis];
+  constexpr glm::vec2 kSigns[6] = {{-1, -1}, {1, -1}, {1, 1}, {1, -1}, {1, -1}, {-1, -1}};
+  const glm::vec2 place = kSigns[face] * (axis == 0   ? glm::vec2(p.z, p.y)
+                                          : axis == 1 ? glm::vec2(p.x, p.z)
+                                                      : glm::vec2(p.x, p.y));
+  const auto texel = [&](float x) { return std::clamp(int((0.5f * x + 0.5f) * float(size)), 0, size - 1); };
+  return (std::size_t(face) * std::size_t(size) + std::size_t(texel(place.y))) * std::size_t(size) +
+         std::size_t(texel(place.x));
+}
+
+/// Discs go to the texels in which points of theirs lie, with their solid angle.
+void addDiscs(const std::vector<DiscRow>& discs, int size, const std::vector<float>& table,
+              std::vector<glm::vec3>& texels) {
+  constexpr int kRings = 24, kAround = 48;
+  for (const DiscRow& disc : discs) {
+    const glm::mat3 axes = sampling::frame(disc.direction);
+    const float height = 1.0f - std::cos(disc.radius_rad);
+    const float share = 2.0f * std::numbers::pi_v<float> * height / float(kRings * kAround);
+    for (int i = 0; i < kRings * kAround; ++i) {
+      const float z = 1.0f - height * (float(i / kAround) + 0.5f) / float(kRings);
+      const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+      const float phi = 2.0f * std::numbers::pi_v<float> * (float(i % kAround) + 0.5f) / float(kAround);
+      const std::size_t texel = cubeTexel(axes * glm::vec3(r * std::cos(phi), r * std::sin(phi), z), size);
+      texels[texel] += share / table[texel * kProbeStride + kProbeSolidAngle] * disc.radiance;
+    }
+  }
 }
 
 }  // namespace
@@ -103,6 +139,9 @@ const ProbeTables::Sky& ProbeTables::sky(const EnvironmentLight& environment, in
         all += solid_angle;
       });
       texels[texel] /= all;
+    });
+    addDiscs(environment.picture().discs(), size, table, texels);
+    forTexels(size, [&](std::size_t texel, int, int, int) {
       const float* at = &table[texel * kProbeStride];
       for (int i = 0; i < sh::kMaxCoefficients; ++i) row.remainder[i] -= at[i] * texels[texel];
       row.luminance += at[kProbeSolidAngle] * glm::dot(texels[texel], kLuminance);

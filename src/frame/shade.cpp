@@ -120,15 +120,22 @@ Shaded recordShade(gpu::FrameGraph& graph, const FrameInputs& inputs, const Ligh
                       imageLike(graph, "frame.indirect" + suffix, inputs.gbuffer)};
   const gpu::ImageRef none = black(graph);
   const auto or_black = [&](gpu::ImageRef image) { return image ? image : none; };
+  const EnvironmentLight& environment = inputs.environment;
+  const bool mirrors = !lighting.has_environment_gloss && !environment.empty();
+  const bool shown = background && !environment.empty();
+  const EnvironmentPicture& picture = environment.picture();
+  std::vector<DiscRow> discs = picture.discs();
+  if (discs.empty()) discs.emplace_back();
   graph.compute("frame.shade", frame_shade_spv)
-      .specialize("environment_gloss", !lighting.has_environment_gloss && !inputs.environment.empty())
+      .specialize("environment_gloss", mirrors)
       .specialize("technique_gloss", bool(gloss_direct) || bool(gloss_indirect))
-      .specialize("background", background && !inputs.environment.empty())
+      .specialize("background", shown)
       .specialize("background_alpha", background ? 1.0f : 0.0f)
       .read("frame_view", inputs.view)
-      .read("environment", graph.uploadOne("frame.environment_row", inputs.environment.row()))
-      .sample("environment_map", inputs.environment.map(), gpu::kLinearEquirect)
-      .sample("gloss", inputs.environment.gloss())
+      .read("environment", graph.uploadOne("frame.environment_row", picture.row()))
+      .read("discs", graph.upload("frame.discs", discs))
+      .sample("environment_map", shown ? picture.map() : picture.anyMap(), gpu::kLinearEquirect)
+      .sample("gloss", mirrors ? environment.gloss() : environment.anyGloss())
       .read("depth", inputs.gbuffer.depth)
       .read("normals", inputs.gbuffer.normals)
       .read("diffuse", inputs.gbuffer.diffuse)

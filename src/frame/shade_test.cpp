@@ -196,6 +196,45 @@ TEST(Shade, BackgroundIsTheEnvironment) {
   EXPECT_EQ(*std::max_element(clear.begin(), clear.end()), 0.0f);
 }
 
+// Discs are drawn, maps looked up, the rest painted: all of it turned and scaled as painted texels would be.
+TEST(Shade, DescribedLightsLookAsPaintedOnes) {
+  Scene scene = spheresScene();
+  scene.nodes.clear();
+  scene.roots.clear();
+  TestFrame frame(scene);
+  const PosedCamera camera = cameraAt({0, 0, 0}, {1, 0.3f, 0.4f}, 80);
+  Environment base = loadEnvironment("sky:mild");
+  base.rotation_rad = 0.4f;
+  const auto drawn = [&](const Environment& environment) {
+    frame.environment.set(environment);
+    return frame.draw(pose(scene, 0.0f), camera, {.width = kSize, .height = kSize})
+        .color.image()
+        .downloadFloats();
+  };
+  std::vector<DistantLight> lights(1);
+  lights[0].direction = glm::normalize(glm::vec3(0.8f, 0.5f, 0.1f));
+  lights[0].radius_rad = 0.2f;
+  lights[0].radiance = {8.0f, 6.0f, 4.0f};
+  for (int step = 0; step < 3; ++step) {  // a map and a disc; the same map turned; more than a map
+    std::vector<DistantLight> described = lights;
+    described.push_back(mapLight(base));
+    if (step == 1) described.back().rotation_rad = 0.9f;
+    if (step == 2) described.push_back({.kind = DistantLight::Kind::kConstant, .radiance = glm::vec3(0.3f)});
+    Environment painted = paintLights({}, described), unpainted = describeLights(described);
+    painted.rotation_rad = unpainted.rotation_rad = 0.3f * float(step);
+    painted.intensity = unpainted.intensity = 0.7f;
+    const std::vector<float> want = drawn(painted), got = drawn(unpainted);
+    int apart = 0;
+    float brightest = 0.0f;
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      brightest = std::max(brightest, got[i]);
+      if (std::abs(got[i] - want[i]) > 0.03f * want[i] + 1e-3f) ++apart;
+    }
+    EXPECT_LT(apart, 4 * kSize * kSize / 30) << step;  // the disc's rim alone, a texel wide
+    EXPECT_GT(brightest, 5.0f);
+  }
+}
+
 TEST(Shade, EmissionIsSeenAsItIs) {
   SceneBuilder builder("lamp");
   const int glowing = builder.diffuse("glowing", glm::vec3(0.0f));

@@ -125,7 +125,7 @@ void Renderer::setEmission(const Scene& scene, const SceneEmission& emission) {
 }
 
 void Renderer::setEnvironment(const Environment& environment) {
-  impl_->environment = frame::EnvironmentLight(*impl_->device, environment);
+  impl_->environment.set(environment);
 }
 
 RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camera,

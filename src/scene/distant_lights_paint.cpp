@@ -153,8 +153,22 @@ Environment paintLights(const Environment& base, std::span<const DistantLight> l
   const float c = std::cos(map.rotation_rad), s = std::sin(map.rotation_rad);
   sh +=
       sh::rotate(glm::mat3(c, 0.0f, s, 0.0f, 1.0f, 0.0f, -s, 0.0f, c), projectLights(lights, sh::kMaxOrder));
-  map.lights = std::make_shared<const EnvironmentLights>(EnvironmentLights{sh});
+  map.lights = std::make_shared<const EnvironmentLights>(EnvironmentLights{sh, {}});
   return map;
+}
+
+Environment describeLights(std::vector<DistantLight> lights) {
+  Environment described;
+  const sh::ShRgb sh = projectLights(lights, sh::kMaxOrder);
+  described.lights = std::make_shared<const EnvironmentLights>(EnvironmentLights{sh, std::move(lights)});
+  return described;
+}
+
+DistantLight mapLight(Environment environment) {
+  DistantLight light{.kind = DistantLight::Kind::kMap};
+  light.known_sh = std::make_shared<const sh::ShRgb>(projectEnvironment(environment, sh::kMaxOrder));
+  light.map = std::make_shared<const Environment>(std::move(environment));
+  return light;
 }
 
 }  // namespace gloam

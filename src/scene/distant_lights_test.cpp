@@ -126,6 +126,25 @@ TEST(PaintLights, PixelsHoldTheLightAndSphericalHarmonicsAreExact) {
             1e-4);
 }
 
+TEST(DescribeLights, TheSameLightAsPaintedWithoutTexels) {
+  Environment base = loadEnvironment("sky:mild");
+  base.rotation_rad = 0.8f;
+  base.intensity = 1.5f;
+  std::vector<DistantLight> lights =
+      parse({"disc?azimuth=30&elevation=50&radius=1&irradiance=3", "constant"}).at(0.0f);
+  const Environment painted = paintLights(base, lights);
+  lights.push_back(mapLight(base));
+  Environment described = describeLights(lights);
+  EXPECT_TRUE(described.empty());
+  EXPECT_LT(worst(projectEnvironment(described, 6), projectEnvironment(painted, 6)), 1e-4);
+  Environment turned = painted;
+  turned.rotation_rad += 0.5f;
+  turned.intensity = described.intensity = 2.0f;
+  described.rotation_rad += 0.5f;
+  EXPECT_LT(worst(projectEnvironment(described, 6), projectEnvironment(turned, 6)), 2e-4);
+  EXPECT_EQ(projectEnvironment(describeLights({}), 6)[0], glm::vec3(0.0f));
+}
+
 TEST(PaintLights, SmallDiscsGetFineTexels) {
   const auto widthOf = [](const char* text) { return paintLights({}, parse({text}).at(0.0f)).width; };
   EXPECT_EQ(widthOf("disc?radius=20"), 512);

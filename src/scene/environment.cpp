@@ -101,7 +101,7 @@ glm::vec3 texelDirection(const Environment& environment, int column, int row) {
 }
 
 sh::ShRgb projectEnvironment(const Environment& environment, int order) {
-  if (environment.empty()) return sh::ShRgb(order);
+  if (environment.empty() && !environment.lights) return sh::ShRgb(order);
   sh::ShRgb light = environment.lights
                         ? sh::truncated(environment.lights->sh, order)
                         : sh::projectEquirectangular(order, environment.radiance, environment.width,
