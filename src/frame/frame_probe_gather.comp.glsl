@@ -20,9 +20,14 @@ layout(scalar, set = 0, binding = 5) readonly buffer ProbeViews { ProbeView at[]
 layout(set = 0, binding = 6) uniform sampler2D depth;
 layout(scalar, set = 0, binding = 7) writeonly buffer Lights { ProbeLight at[]; } lights;  // [job][coefficient]
 layout(scalar, set = 0, binding = 8) writeonly buffer Trust { float at[]; } trust;         // [probe]
+layout(scalar, set = 0, binding = 9) writeonly buffer LampLights { vec3 at[]; } lamp_lights;   // [job][coefficient]
+layout(scalar, set = 0, binding = 10) writeonly buffer LampsSeen { float at[]; } lamps_seen;  // [probe][lamp]
 layout(scalar, push_constant) uniform Push { ProbeGatherParams params; } push;
 
-shared ProbeLight world[40];
+struct World {
+  vec3 direct, reflected, lamps;
+};
+shared World world[40];
 
 /// Place on a face (sh::cubeDirection), -1 to 1, from the direction over its greatest part.
 vec2 facePlace(uint face, vec3 d) {
@@ -69,22 +74,23 @@ void main() {
   for (uint k = 0u; k < push.params.lamp_count; ++k) {
     uint n = probe * push.params.lamp_count + k;
     vec3 irradiance = lamps.at[n].irradiance;
-    if (irradiance == vec3(0.0)) continue;
-    lamp_light += lampVisibility(probe, lamps.at[n].direction, lamps.at[n].distance) * lamps.at[n].basis[i] * irradiance;
+    float seen = lampVisibility(probe, lamps.at[n].direction, lamps.at[n].distance);
+    if (lane == 0u) lamps_seen.at[n] = seen;
+    lamp_light += seen * lamps.at[n].basis[i] * irradiance;
   }
-  world[lane] = ProbeLight(emitted + (push.params.lamps_direct != 0u ? lamp_light : vec3(0.0)), reflected,
-                           emitted + reflected + lamp_light);
+  world[lane] = World(emitted, reflected, lamp_light);
   barrier();
   if (lane == 0u) trust.at[probe] = 1.0 - smoothstep(kProbeSomeBacks, kProbeMostBacks, shares.y / (4.0 * 3.14159265));
   if (lane >= push.params.coefficients) return;
   uint band = uint(sqrt(float(lane) + 0.5));
-  ProbeLight turned = ProbeLight(vec3(0.0), vec3(0.0), vec3(0.0));
+  World turned = World(vec3(0.0), vec3(0.0), vec3(0.0));
   for (uint k = 0u; k < 2u * band + 1u; ++k) {
     float m = push.params.band[band] * turns.at[(jobs.at[job].turn * 36u + lane) * 11u + k];
-    ProbeLight from = world[band * band + k];
+    World from = world[band * band + k];
     turned.direct += m * from.direct;
     turned.reflected += m * from.reflected;
-    turned.all += m * from.all;
+    turned.lamps += m * from.lamps;
   }
-  lights.at[job * push.params.coefficients + lane] = turned;
+  lights.at[job * push.params.coefficients + lane] = ProbeLight(turned.direct, turned.reflected);
+  lamp_lights.at[job * push.params.coefficients + lane] = turned.lamps;
 }

@@ -80,19 +80,17 @@ GLOAM_SHARED_SIZE(ProbeJob, 8)
 struct ProbeGatherParams {
   uint size;
   uint lamp_count;
-  uint lamps_direct;  // 1: lamps belong to `direct`
   uint coefficients;
   float band[6];  // factors of a window
 };
-GLOAM_SHARED_SIZE(ProbeGatherParams, 40)
+GLOAM_SHARED_SIZE(ProbeGatherParams, 36)
 
-/// One coefficient of a probe's light, apart by what is done with it.
+/// One coefficient of a probe's light without lamps, apart by what is done with it. Both bounce on the receiver itself.
 struct ProbeLight {
-  vec3 direct;     // of emitters and sky, and of lamps where asked for
+  vec3 direct;     // of emitters and sky
   vec3 reflected;  // by the surfaces around
-  vec3 all;        // both, and of lamps in any case: what bounces on the receiver itself
 };
-GLOAM_SHARED_SIZE(ProbeLight, 36)
+GLOAM_SHARED_SIZE(ProbeLight, 24)
 
 GLOAM_SHARED_END
 #endif

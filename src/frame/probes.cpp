@@ -117,6 +117,10 @@ Probes::Probes(gpu::FrameGraph& graph, const FrameInputs& inputs, ProbeTables& t
   lamps_ = graph.upload(name + "_lamps", lampRows());
   sums_ = graph.create(name + "_sums",
                        gpu::BufferDesc{.bytes = places_.size() * 6 * kProbeStride * sizeof(ProbeSums)});
+  lamps_seen_ = graph.create(
+      name + "_lamps_seen",
+      gpu::BufferDesc{.bytes = std::max<std::size_t>(places_.size() * inputs_.shadow_maps.lights.size(), 1) *
+                               sizeof(float)});
   trust_ = graph.create(name + "_trust", gpu::BufferDesc{.bytes = places_.size() * sizeof(float)});
 }
 
@@ -174,6 +178,8 @@ void Probes::setReceivers(std::span<const ProbeReceiver> receivers) {
   const std::size_t coefficients = std::size_t(options_.order) * std::size_t(options_.order);
   lights_ = graph_.create(name_ + "_lights",
                           gpu::BufferDesc{.bytes = jobs.size() * coefficients * sizeof(ProbeLight)});
+  lamp_lights_ = graph_.create(name_ + "_lamp_lights",
+                               gpu::BufferDesc{.bytes = jobs.size() * coefficients * sizeof(glm::vec3)});
 }
 
 void Probes::gather(const LitSurfaces& lit, bool lamps_on_lit, const sh::ShRgb& unlit) {
@@ -216,11 +222,7 @@ void Probes::gather(const LitSurfaces& lit, bool lamps_on_lit, const sh::ShRgb& 
       .push(size)
       .dispatch(static_cast<std::uint32_t>(places_.size()), 6);
 
-  ProbeGatherParams params{size,
-                           lamp_count,
-                           options_.lamps_direct ? 1u : 0u,
-                           static_cast<std::uint32_t>(options_.order * options_.order),
-                           {}};
+  ProbeGatherParams params{size, lamp_count, static_cast<std::uint32_t>(options_.order * options_.order), {}};
   std::copy(options_.band_factors.begin(), options_.band_factors.end(), params.band);
   graph_.compute(name_ + "_gather", frame_probe_gather_spv)
       .read("jobs", jobs_)
@@ -231,6 +233,8 @@ void Probes::gather(const LitSurfaces& lit, bool lamps_on_lit, const sh::ShRgb& 
       .read("probe_views", views_)
       .read("depth", depth_)
       .write("lights", lights_)
+      .write("lamp_lights", lamp_lights_)
+      .write("lamps_seen", lamps_seen_)
       .write("trust", trust_)
       .push(params)
       .dispatch(receiver_count_);

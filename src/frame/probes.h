@@ -60,7 +60,6 @@ struct ProbeOptions {
   int size = 16;                                           ///< texels a side of a face, 4 to 128
   int order = 5;                                           ///< bands of their light, 1 to 6
   std::array<float, 6> band_factors = {1, 1, 1, 1, 1, 1};  ///< of a window
-  bool lamps_direct = false;  ///< lamps belong to ProbeLight::direct, and LitSurfaces hold their light
 };
 
 /// The probes of one frame. Pictures are called NAME_emitted and NAME_reflected: a row is a probe, its columns are faces
@@ -82,8 +81,12 @@ class Probes {
   /// SH of order 6. May be called again with other light.
   void gather(const LitSurfaces& lit, bool lamps_on_lit, const sh::ShRgb& unlit);
 
-  gpu::BufferRef lights() const { return lights_; }  ///< ProbeLight, [receiver][coefficient]
-  gpu::BufferRef trust() const { return trust_; }    ///< floats, [probe]: 0 where it is buried in something
+  gpu::BufferRef lights() const { return lights_; }  ///< ProbeLight, [receiver][coefficient]: all but lamps
+  gpu::BufferRef lampLights() const { return lamp_lights_; }  ///< vec3, [receiver][coefficient]: lamps alone
+  gpu::BufferRef lampsSeen() const {
+    return lamps_seen_;
+  }  ///< floats, [probe][lamp]: 0 where something stands before it
+  gpu::BufferRef trust() const { return trust_; }  ///< floats, [probe]: 0 where it is buried in something
   const std::vector<ProbePlace>& places() const { return places_; }
 
  private:
@@ -96,7 +99,7 @@ class Probes {
   std::string name_;
   std::vector<ProbePlace> places_;
   ProbeOptions options_;
-  gpu::BufferRef views_, jobs_, turns_, lamps_, sums_, lights_, trust_;
+  gpu::BufferRef views_, jobs_, turns_, lamps_, sums_, lights_, lamp_lights_, lamps_seen_, trust_;
   std::uint32_t receiver_count_ = 0;
   gpu::ImageRef depth_, ids_, normals_, diffuse_, specular_, emission_, emitted_, reflected_;
 };

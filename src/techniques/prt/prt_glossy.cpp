@@ -47,7 +47,9 @@ std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::Frame
     if (local) {
       pass.specialize("points", local->points)
           .specialize("probe_coefficients", local->order * local->order)
+          .specialize("lamps_direct", local->lamps)
           .read("probe_lights", local->lights)
+          .read("lamp_lights", local->lamp_lights)
           .read("probe_places", local->places)
           .read("trust", local->trust)
           .read("positions", inputs.scene.positions())

@@ -10,9 +10,10 @@ namespace gloam::prt {
 
 /// Light of probes in place of the world's (LocalLight).
 struct LocalGloss {
-  gpu::BufferRef lights, places, trust;  ///< as LocalLight has them
-  gpu::BufferRef rows;                   ///< LocalRow, of each instance that `glossy` lights
-  int points = 0, order = 0;             ///< an object; bands of `lights`, no fewer than `glossy` takes
+  gpu::BufferRef lights, lamp_lights, places, trust;  ///< as LocalLight has them
+  gpu::BufferRef rows;                                ///< LocalRow, of each instance that `glossy` lights
+  bool lamps = false;                                 ///< lamps too shine through the matrices
+  int points = 0, order = 0;  ///< an object; bands of `lights`, no fewer than `glossy` takes
 };
 
 /// Adds "prt.gloss_vertices", once a chunk, and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be

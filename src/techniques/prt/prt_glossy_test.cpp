@@ -4,12 +4,11 @@
 // Run time of glossy transfer (PRT-2, PRT-8): on transfer that is known in closed form.
 #include <gloam/bake.h>
 
-#include "frame/test_frame.h"
 #include "golden.h"
 #include "math/brdf.h"
 #include "math/sh_high_order.h"
 #include "scene/environment.h"
-#include "techniques/prt/prt.h"
+#include "techniques/prt/prt_test_frame.h"
 
 namespace gloam::prt {
 namespace {
@@ -17,32 +16,8 @@ namespace {
 constexpr int kSize = 64;
 constexpr float kPi = 3.14159265f;
 
-Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
-  Settings result(info().options);
-  result.set("window", "none");
-  for (const auto& [name, value] : values) result.set(name, value);
-  return result;
-}
-
-struct Picture {
-  std::vector<float> direct, indirect, normal, gloss;
-  std::vector<glm::uvec2> ids;
-  PosedCamera camera;
-};
 Picture draw(const Scene& scene, const Settings& settings = prt::settings(), std::size_t chunk_bytes = 0) {
-  const PosedScene posed = pose(scene, 0.0f);
-  frame::TestFrame frame(scene);
-  Prt technique(gpu::testDevice(), chunk_bytes);
-  const frame::FrameImages images = frame.draw(posed, posed.cameras.at(0), {.width = kSize, .height = kSize},
-                                               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
-                                                 return technique.record(graph, inputs, settings);
-                                               });
-  return {images.direct.image().downloadFloats(),
-          images.indirect.image().downloadFloats(),
-          images.normal.image().downloadFloats(),
-          {},
-          frame.ids(),
-          posed.cameras.at(0)};
+  return prt::draw(scene, kSize, pose(scene, 0.0f).cameras.at(0), settings, chunk_bytes);
 }
 
 /// A sphere of pure metal under a sky, seen by a camera so far off that all its rays are nearly parallel.

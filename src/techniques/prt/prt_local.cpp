@@ -159,15 +159,20 @@ std::vector<LocalRow> LocalLight::rowsOf(const frame::GpuScene& scene, const Tra
 }
 
 void LocalLight::lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene,
-                               const TransferBuffers& transfer, bool damped, gpu::BufferRef output) const {
+                               const frame::ShadowMaps& lamps, const TransferBuffers& transfer,
+                               const LocalOptions& options, gpu::BufferRef output) const {
   const gpu::Limits& limits = graph.device().limits();
+  LocalVerticesParams params{.lamp_count = static_cast<std::uint32_t>(lamps.lights.size()),
+                             .lamps_direct = options.lamps ? 1u : 0u};
+  std::ranges::copy(bandFactors(options.window, transfer.order()), params.band);
   for (const TransferChunk& chunk : transfer.chunks()) {
+    params.block_count = chunk.block_count;
     const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
     graph.compute("prt.local_vertices", prt_local_vertices_spv)
         .specialize("order", transfer.order())
         .specialize("has_indirect", transfer.hasIndirect())
         .specialize("half_float", transfer.options().half_float)
-        .specialize("damped", damped)
+        .specialize("damped", options.damped)
         .specialize("points", points_)
         .read("blocks", chunk.blocks)
         .read("transfer_direct", chunk.direct)
@@ -177,8 +182,11 @@ void LocalLight::lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& sc
         .read("probe_places", places_)
         .read("trust", trust_)
         .read("positions", scene.positions())
+        .read("normals", scene.normals())
+        .read("lamps", lamps.light_rows)
+        .read("lamps_seen", lamps_seen_)
         .write("vertex_light", output)
-        .push(chunk.block_count)
+        .push(params)
         .dispatch(columns, (chunk.block_count + columns - 1) / columns);
   }
 }
@@ -195,12 +203,13 @@ gpu::BufferRef LocalLight::record(gpu::FrameGraph& graph, const frame::FrameInpu
   frame::Probes probes(graph, inputs, tables, "prt.local_cube", places, groups_,
                        {.size = options.size,
                         .order = transfer.order(),
-                        .band_factors = bandFactors(options.window, transfer.order()),
-                        .lamps_direct = options.lamps});
+                        .band_factors = bandFactors(options.window, transfer.order())});
   probes.setReceivers(receivers);
   rows_ = graph.upload("prt.local_rows", lit_rows_);
   places_ = graph.upload("prt.local_places", positions);
   lights_ = probes.lights();
+  lamp_lights_ = probes.lampLights();
+  lamps_seen_ = probes.lampsSeen();
   trust_ = probes.trust();
 
   const auto output = graph.create("prt.vertex_light",
@@ -212,7 +221,7 @@ gpu::BufferRef LocalLight::record(gpu::FrameGraph& graph, const frame::FrameInpu
   for (int pass = 0; pass <= options.bounces; ++pass) {
     // What transfer has made of lamps' light holds their direct part, too, where they shine through it.
     probes.gather({transfer.outputRows(), output}, pass == 0 || !options.lamps, unlit);
-    lightVertices(graph, scene, transfer, options.damped, output);
+    lightVertices(graph, scene, inputs.shadow_maps, transfer, options, output);
   }
   return output;
 }

@@ -44,6 +44,7 @@ class LocalLight {
 
   // Of the last record():
   gpu::BufferRef lights() const { return lights_; }  ///< frame::ProbeLight, [job][coefficient of `order`]
+  gpu::BufferRef lampLights() const { return lamp_lights_; }  ///< as frame::Probes has it
   /// Of the instances whose vertices' radiance begins at `first_outputs` (by instance; kUnbaked: none).
   std::vector<LocalRow> rowsOf(const frame::GpuScene& scene, const TransferBuffers& transfer,
                                std::span<const std::uint32_t> first_outputs) const;
@@ -56,15 +57,16 @@ class LocalLight {
   std::vector<frame::ProbePlace> placesNow(const frame::GpuScene& scene) const;
   std::vector<LocalRow> rowsNow(const frame::GpuScene& scene, const TransferBuffers& transfer,
                                 std::vector<frame::ProbeReceiver>& receivers) const;
-  void lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene, const TransferBuffers& transfer,
-                     bool damped, gpu::BufferRef output) const;
+  void lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene, const frame::ShadowMaps& lamps,
+                     const TransferBuffers& transfer, const LocalOptions& options,
+                     gpu::BufferRef output) const;
 
   int points_;
   std::vector<LocalObject> objects_;
   std::vector<std::uint32_t> object_of_lit_;  ///< by lit instance
   std::vector<LocalRow> lit_rows_;            ///< by lit instance, of the last record()
   std::vector<std::uint32_t> groups_;         ///< by instance: its object, or frame::kNoGroup
-  gpu::BufferRef lights_, rows_, places_, trust_;
+  gpu::BufferRef lights_, lamp_lights_, lamps_seen_, rows_, places_, trust_;
 };
 
 }  // namespace gloam::prt

@@ -21,5 +21,13 @@ struct LocalRow {
 };
 GLOAM_SHARED_SIZE(LocalRow, 116)
 
+struct LocalVerticesParams {
+  uint block_count;
+  uint lamp_count;
+  uint lamps_direct;  // 1: they shine through transfer; 0: their direct light is left to shadow maps
+  float band[6];      // factors of a window
+};
+GLOAM_SHARED_SIZE(LocalVerticesParams, 36)
+
 GLOAM_SHARED_END
 #endif

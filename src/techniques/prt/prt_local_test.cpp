@@ -7,9 +7,8 @@
 
 #include <gloam/bake.h>
 
-#include "frame/test_frame.h"
 #include "scene/environment.h"
-#include "techniques/prt/prt.h"
+#include "techniques/prt/prt_test_frame.h"
 
 namespace gloam::prt {
 namespace {
@@ -17,10 +16,8 @@ namespace {
 constexpr int kSize = 64;
 constexpr float kPi = 3.14159265f;
 
-Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
-  Settings result(info().options);
-  result.set("window", "none");
-  result.set("local_light", "emitters");
+Settings localSettings(Values values = {}) {
+  Settings result = settings({{"local_light", "emitters"}});
   for (const auto& [name, value] : values) result.set(name, value);
   return result;
 }
@@ -95,11 +92,11 @@ TEST(PrtLocal, AloneUnderTheSkyItIsDistantLight) {
     stage.builder.at(0).rotation = glm::angleAxis(1.1f, glm::normalize(glm::vec3(1, 2, -0.5f)));
     Scene scene = stage.finish();
     scene.environment = loadEnvironment(sky);
-    const Lit distant = lightOf(scene, settings({{"local_light", "off"}}));
+    const Lit distant = lightOf(scene, localSettings({{"local_light", "off"}}));
     float greatest = 0.0f;
     for (const VertexLight& light : distant.light) greatest = std::max(greatest, light.direct.g);
     for (const char* points : {"1", "4"}) {
-      const Lit local = lightOf(scene, settings({{"local_points", points}}));
+      const Lit local = lightOf(scene, localSettings({{"local_points", points}}));
       ASSERT_EQ(local.light.size(), distant.light.size());
       EXPECT_LT(greatestDifference(local.light, distant.light, local.light.size()), 1e-3f * greatest)
           << sky << " " << points;
@@ -114,7 +111,7 @@ TEST(PrtLocal, FarGlowingBallIsADisc) {
   const float distance = 6.0f, radius = 1.2f;
   stage.builder.place("sun", shapes::icosphere(radius, 16), stage.glow({3.0f, 2.0f, 1.0f}), distance * to);
   const Scene scene = stage.finish();
-  const Lit lit = lightOf(scene, settings({{"local_points", "1"}, {"local_size", "64"}}));
+  const Lit lit = lightOf(scene, localSettings({{"local_points", "1"}, {"local_size", "64"}}));
   const sh::ShRgb disc =
       sh::colored(sh::disc(5, to, std::asin(radius / distance)), glm::vec3(3.0f, 2.0f, 1.0f));
   const float greatest = sh::irradiance(disc, to).r;
@@ -125,28 +122,36 @@ TEST(PrtLocal, FarGlowingBallIsADisc) {
   }
 }
 
-// A lamp far away is a direction; what stands before it takes it away. Near ones fade with distance, side by side.
-TEST(PrtLocal, LampsAreDirections) {
-  Stage stage;
+// A lamp shines on an open surface by inverse square and cosine, as exactly near as far; what stands before it takes it away.
+TEST(PrtLocal, LampsAreSeenFromEachVertex) {
   const glm::vec3 to = glm::normalize(glm::vec3(-0.4f, 0.8f, 0.3f));
   Light lamp;
   lamp.intensity = {400.0f, 300.0f, 200.0f};
+  for (const float distance : {10.0f, 0.8f}) {
+    Stage stage;
+    stage.builder.light(lamp, distance * to);
+    const Scene near = stage.finish();
+    const Lit lit = lightOf(near, localSettings({{"local_light", "all"}, {"local_points", "1"}}));
+    for (std::size_t v = 0; v < near.meshes[0].normals.size(); ++v) {
+      const glm::vec3 between = distance * to - near.meshes[0].positions[v];
+      const float squared = glm::dot(between, between);
+      const float cosine = glm::dot(near.meshes[0].normals[v], between) / std::sqrt(squared);
+      const glm::vec3 want = lamp.intensity * std::max(cosine, 0.0f) / squared;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(lit.light[v].direct[c], want[c], 1e-3f * lamp.intensity.r / squared);
+    }
+  }
+  Stage stage;
   stage.builder.light(lamp, 10.0f * to);
   const Scene scene = stage.finish();
-  const Lit lit = lightOf(scene, settings({{"local_light", "all"}, {"local_points", "1"}}));
-  const sh::ShRgb light = sh::colored(sh::directionalLight(5, to), glm::vec3(4.0f, 3.0f, 2.0f));
-  for (std::size_t v = 0; v < scene.meshes[0].normals.size(); ++v) {
-    const glm::vec3 want = sh::irradiance(light, scene.meshes[0].normals[v]);
-    for (int c = 0; c < 3; ++c) ASSERT_NEAR(lit.light[v].direct[c], want[c], 0.02f);
-  }
-  const Lit by_shadow_maps = lightOf(scene, settings({{"local_points", "1"}}));
+  const Lit by_shadow_maps = lightOf(scene, localSettings({{"local_points", "1"}}));
   for (const VertexLight& vertex : by_shadow_maps.light) ASSERT_EQ(vertex.direct, glm::vec3(0.0f));
 
   Stage covered;
   covered.builder.light(lamp, 10.0f * to);
   covered.builder.place("cover", shapes::icosphere(1.0f, 8), covered.builder.diffuse("dark", glm::vec3(0.0f)),
                         4.0f * to);
-  const Lit dark = lightOf(covered.finish(), settings({{"local_light", "all"}, {"local_points", "1"}}));
+  const Lit dark = lightOf(covered.finish(), localSettings({{"local_light", "all"}, {"local_points", "1"}}));
   for (std::size_t v = 0; v < scene.meshes[0].normals.size(); ++v)
     ASSERT_LT(glm::length(dark.light[v].direct), 1e-3f);
 }
@@ -164,7 +169,7 @@ TEST(PrtLocal, PointsAreBlendedContinuously) {
   };
   std::vector<double> errors;
   for (const char* points : {"1", "2", "8"}) {
-    const Lit lit = lightOf(scene, settings({{"local_points", points}, {"local_size", "32"}}));
+    const Lit lit = lightOf(scene, localSettings({{"local_points", points}, {"local_size", "32"}}));
     float greatest = 0.0f, step = 0.0f;
     for (std::size_t v = 0; v < positions.size(); ++v) greatest = std::max(greatest, lit.light[v].direct.r);
     const std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
@@ -193,7 +198,8 @@ TEST(PrtLocal, ObjectsLightOneAnother) {
   Scene scene = builder.finish();
   addTransfer(scene, 5);
   scene.environment = loadEnvironment("sky:uniform");
-  const Lit none = lightOf(scene, settings({{"local_bounces", "0"}})), once = lightOf(scene, settings());
+  const Lit none = lightOf(scene, localSettings({{"local_bounces", "0"}})),
+            once = lightOf(scene, localSettings());
   const std::size_t vertices = scene.meshes[0].vertexCount();
   for (std::size_t v = 0; v < vertices; ++v) {
     const glm::vec3& n = scene.meshes[0].normals[v];
@@ -223,7 +229,7 @@ TEST(PrtLocal, PointsMoveWithTheirObject) {
     // All turned as one.
     for (const int node : {0, panel})
       stage.builder.at(node).rotation = glm::angleAxis(angle, glm::vec3(0, 1, 0));
-    lights.push_back(lightOf(stage.finish(), settings({{"local_size", "48"}})).light);
+    lights.push_back(lightOf(stage.finish(), localSettings({{"local_size", "48"}})).light);
   }
   const std::size_t ball = lights[0].size() / 2 < 362 ? lights[0].size() / 2 : 362;
   float greatest = 0.0f;
@@ -238,7 +244,7 @@ TEST(PrtLocal, BuriedPointsDoNotCount) {
   stage.builder.place("floor", shapes::ground(8, 8, 8, 8), stage.builder.diffuse("floor", glm::vec3(0.5f)));
   Scene scene = stage.finish();
   scene.environment = loadEnvironment("sky:uniform");
-  const Lit lit = lightOf(scene, settings({{"local_points", "6"}}));
+  const Lit lit = lightOf(scene, localSettings({{"local_points", "6"}}));
   ASSERT_EQ(lit.trust.size(), 12u);
   EXPECT_EQ(*std::min_element(lit.trust.begin(), lit.trust.begin() + 6), 0.0f);
   EXPECT_EQ(*std::max_element(lit.trust.begin(), lit.trust.begin() + 6), 1.0f);
@@ -255,7 +261,7 @@ TEST(PrtLocal, GlossSeesLocalLight) {
     const PosedScene posed = pose(scene, 0.0f);
     frame::TestFrame frame(scene);
     Prt technique(gpu::testDevice());
-    const Settings values = settings({{"local_light", local_light}, {"local_points", "2"}});
+    const Settings values = localSettings({{"local_light", local_light}, {"local_points", "2"}});
     const auto images =
         frame.draw(posed, frame::cameraAt({0, 0, 2.5f}, {0, 0, 0}), {.width = kSize, .height = kSize},
                    [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
@@ -294,7 +300,7 @@ TEST(PrtLocal, GlossSeesLocalLight) {
 }
 
 TEST(PrtLocal, AnswersForMoreLight) {
-  const Settings off = settings({{"local_light", "off"}}), on = settings();
+  const Settings off = localSettings({{"local_light", "off"}}), on = localSettings();
   EXPECT_EQ(coverageWith(info(), off), info().covers);
   EXPECT_EQ(coverageWith(info(), on), kAllLight);
   EXPECT_NE(info().covers, kAllLight);

@@ -6,12 +6,11 @@
 
 #include <gloam/bake.h>
 
-#include "frame/test_frame.h"
 #include "scene/environment.h"
 #include "scene/transforms.h"
-#include "techniques/prt/prt.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
 #include "techniques/prt/prt_neighbourhood_field.h"
+#include "techniques/prt/prt_test_frame.h"
 
 namespace gloam::prt {
 namespace {
@@ -44,26 +43,9 @@ Scene ballOverFloor(bool floor_baked, float metallic = 0.0f) {
   return baked;
 }
 
-struct Picture {
-  std::vector<float> direct, indirect;
-  std::vector<glm::uvec2> ids;
-  frame::FrameView view;
-};
-
-Picture draw(const Scene& scene, std::initializer_list<std::pair<const char*, const char*>> values = {}) {
-  Settings settings(info().options);
-  settings.set("window", "none");
-  for (const auto& [name, value] : values) settings.set(name, value);
-  const PosedScene posed = pose(scene, 0.0f);
-  const PosedCamera camera = frame::cameraAt({2.0f, 4.5f, 6.0f}, {0.3f, -1.0f, 0.0f}, 60.0f);
-  frame::TestFrame frame(scene);
-  Prt technique(gpu::testDevice());
-  const frame::FrameImages images = frame.draw(posed, camera, {.width = kSize, .height = kSize},
-                                               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
-                                                 return technique.record(graph, inputs, settings);
-                                               });
-  return {images.direct.image().downloadFloats(), images.indirect.image().downloadFloats(), frame.ids(),
-          frame::makeView(camera, kSize, kSize, posed.bounds_min, posed.bounds_max)};
+Picture draw(const Scene& scene, Values values = {}) {
+  return prt::draw(scene, kSize, frame::cameraAt({2.0f, 4.5f, 6.0f}, {0.3f, -1.0f, 0.0f}, 60.0f),
+                   settings(values));
 }
 
 /// The floor's pixels against fieldAt(). Returns how many of them lie in the grid.

@@ -18,7 +18,7 @@ layout(constant_id = 3) const int field_order = 5;
 layout(constant_id = 4) const bool has_thrown = true;
 layout(constant_id = 5) const bool damped = false;
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kBlockVertices) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Blocks { VertexBlock at[]; } blocks;
 layout(scalar, set = 0, binding = 2) readonly buffer TransferDirect { uint at[]; } transfer_direct;
 layout(scalar, set = 0, binding = 3) readonly buffer TransferIndirect { uint at[]; } transfer_indirect;
@@ -31,18 +31,8 @@ layout(scalar, push_constant) uniform Push { NeighbourhoodVertices params; } pus
 
 const uint kWords = has_thrown ? 3u : 2u;
 const uint kRows = uint(field_order * field_order);
-
-/// Value i of a lane's vertex, as in prt_vertices.comp.glsl.
-float direct(uint block, uint i, uint lane) {
-  if (!half_float) return uintBitsToFloat(transfer_direct.at[(block * uint(coefficients) + i) * kBlockVertices + lane]);
-  uint words = uint(coefficients + 1) / 2u;
-  return unpackHalf2x16(transfer_direct.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
-}
-float indirect(uint block, uint i, uint lane) {
-  if (!half_float) return uintBitsToFloat(transfer_indirect.at[(block * 3u * uint(coefficients) + i) * kBlockVertices + lane]);
-  uint words = uint(3 * coefficients + 1) / 2u;
-  return unpackHalf2x16(transfer_indirect.at[(block * words + (i >> 1)) * kBlockVertices + lane])[i & 1u];
-}
+const uint kCoefficients = uint(coefficients);
+#include "techniques/prt/prt_values.glsl"
 
 void main() {
   uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
@@ -78,8 +68,7 @@ void main() {
         soft += soft_share * m * first;
         thrown += m * further;
         if (has_indirect) {
-          vec3 bounced = vec3(indirect(block.transfer, 3u * i, lane), indirect(block.transfer, 3u * i + 1u, lane),
-                              indirect(block.transfer, 3u * i + 2u, lane));
+          vec3 bounced = indirect(block.transfer, i, lane);
           open_bounced += bounced * light;
           shadowed_bounced += bounced * first;
           soft_bounced += soft_share * bounced * first;

@@ -5,10 +5,11 @@
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(prt)
 
-/// Vertices of a block, in which transfer is stored.
-GLOAM_SHARED_CONST uint kBlockVertices = 64u;
+/// Vertices of a block, in which transfer is stored: eight lanes (as many as Mesa's software driver runs together) of four
+/// vertices each read a block from its first byte to its last, and 32 lanes of one each read whole lines.
+GLOAM_SHARED_CONST uint kBlockVertices = 32u;
 /// Blocks that a work group of prt.vertices takes.
-GLOAM_SHARED_CONST uint kBlocksTogether = 4u;
+GLOAM_SHARED_CONST uint kBlocksTogether = 8u;
 GLOAM_SHARED_CONST uint kUnbaked = 0xffffffffu;
 
 /// The sharpest Phong lobe that bands of radiance show, by their number: its truncated kernel dips to no more than -8 % of

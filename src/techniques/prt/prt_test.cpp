@@ -10,10 +10,10 @@
 #include <glm/gtc/constants.hpp>
 #include <ranges>
 
-#include "frame/test_frame.h"
 #include "golden.h"
 #include "scene/environment.h"
 #include "scene/transforms.h"
+#include "techniques/prt/prt_test_frame.h"
 
 namespace gloam::prt {
 namespace {
@@ -21,29 +21,8 @@ namespace {
 constexpr int kSize = 64;
 constexpr float kPi = 3.14159265f;
 
-/// Without a window unless asked for: transfer in closed form is then light in closed form.
-Settings settings(std::initializer_list<std::pair<const char*, const char*>> values = {}) {
-  Settings result(info().options);
-  result.set("window", "none");
-  for (const auto& [name, value] : values) result.set(name, value);
-  return result;
-}
-
-struct Picture {
-  std::vector<float> direct, indirect, normal;
-  std::vector<glm::uvec2> ids;
-  Warnings warnings;
-};
 Picture draw(const Scene& scene, const Settings& settings = prt::settings(), std::size_t chunk_bytes = 0) {
-  const PosedScene posed = pose(scene, 0.0f);
-  frame::TestFrame frame(scene);
-  Prt technique(gpu::testDevice(), chunk_bytes);
-  const frame::FrameImages images = frame.draw(posed, posed.cameras.at(0), {.width = kSize, .height = kSize},
-                                               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
-                                                 return technique.record(graph, inputs, settings);
-                                               });
-  return {images.direct.image().downloadFloats(), images.indirect.image().downloadFloats(),
-          images.normal.image().downloadFloats(), frame.ids(), frame.warnings};
+  return prt::draw(scene, kSize, pose(scene, 0.0f).cameras.at(0), settings, chunk_bytes);
 }
 
 /// Unshadowed transfer of every vertex, in closed form; the interreflected part is a third, half and all of
