@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "emission_run.h"
 #include "plot.h"
 #include "verb.h"
 
@@ -62,7 +63,8 @@ std::vector<Point> measurePoints(Renderer& renderer, const RenderOptions& option
     for (Point& point : points) {
       const Crowd crowd = crowdOf(point.count);
       renderer.setScene(crowd.scene);
-      renderer.setSpheres(crowd.scene, crowd.spheres);
+      giveSpheres(renderer, technique(options.technique), crowd.scene, crowd.spheres, "crowd", false,
+                  console);
       const PosedScene posed = pose(crowd.scene, 0.0f);
       for (int i = -1; i < each; ++i) {
         if (interrupted()) throw Interrupted("interrupted: no figures");

@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "bake_run.h"
+#include "emission_run.h"
 #include "spheres_run.h"
 
 namespace gloam::cli {
@@ -26,7 +27,7 @@ BenchStage prepareBench(const BenchChoice& choice, Console& console) {
   if (info.needs_spheres) {
     stage.spheres = spheresForDrawing(stage.scene, choice.scene.name, true, console,
                                       stage.options.settings.integer("spheres"));
-    stage.renderer.setSpheres(stage.scene, stage.spheres);
+    giveSpheres(stage.renderer, info, stage.scene, stage.spheres, choice.scene.name, true, console);
   }
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.options.width = choice.view.size.x, stage.options.height = choice.view.size.y;

@@ -16,6 +16,7 @@
 #include "compare_reference.h"
 #include "compare_results.h"
 #include "compare_stage.h"
+#include "emission_run.h"
 #include "spheres_run.h"
 #include "verb.h"
 
@@ -59,8 +60,9 @@ struct Comparison {
   ReferencePicture reference;
   CompareResults results;
   Page page;
-  std::vector<std::optional<SceneSpheres>> spheres;  ///< of contenders that need them
-  std::vector<BakeTime> sphere_times;                ///< what fitting those took
+  std::vector<std::optional<SceneSpheres>> spheres;    ///< of contenders that need them
+  std::vector<std::optional<SceneEmission>> emission;  ///< what these send, likewise
+  std::vector<BakeTime> sphere_times;                  ///< what fitting and sampling those took
 };
 
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
@@ -72,10 +74,14 @@ fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
 void haveSpheres(Comparison& work, Console& console) {
   for (const Contender& contender : work.contenders) {
     std::optional<SceneSpheres>& spheres = work.spheres.emplace_back();
+    std::optional<SceneEmission>& emission = work.emission.emplace_back();
     BakeTime& time = work.sphere_times.emplace_back();
     if (!contender.technique->needs_spheres) continue;
     spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
                                 contender.settings.integer("spheres"), &time);
+    if (!contender.technique->needs_emission) continue;
+    emission = emissionForDrawing(work.stage.scene, *spheres, work.choice.scene.name, work.choice.use_cache,
+                                  console, &time);
   }
 }
 
@@ -85,7 +91,9 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
   for (std::size_t i = 0; i < work.contenders.size(); ++i) {
     const Contender& contender = work.contenders[i];
     const std::optional<SceneSpheres>& spheres = work.spheres[i];
-    Drawn drawn = drawContender(work.stage, work.choice, contender, spheres ? &*spheres : nullptr, background,
+    const std::optional<SceneEmission>& emission = work.emission[i];
+    const ContenderSpheres given{spheres ? &*spheres : nullptr, emission ? &*emission : nullptr};
+    Drawn drawn = drawContender(work.stage, work.choice, contender, given, background,
                                 stretch(progress, double(i) / count, double(i + 1) / count));
     work.folder.make();
     TechniqueResult result{.name = contender.technique->name, .label = contender.label};

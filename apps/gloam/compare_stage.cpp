@@ -76,14 +76,15 @@ void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
 }
 
 Drawn drawContender(const CompareStage& stage, const CompareChoice& choice, const Contender& contender,
-                    const SceneSpheres* spheres, bool background, const Progress& progress) {
+                    const ContenderSpheres& spheres, bool background, const Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const Scene& scene = stage.sceneFor(contender);
   const PosedScene posed = &scene == &stage.scene ? stage.posed : pose(scene, choice.view.time_s);
   Renderer renderer(choice.device);
   renderer.setScene(scene);
   renderer.setEnvironment(stage.environment);
-  if (spheres != nullptr) renderer.setSpheres(scene, *spheres);
+  if (spheres.sets != nullptr) renderer.setSpheres(scene, *spheres.sets);
+  if (spheres.sent != nullptr) renderer.setEmission(scene, *spheres.sent);
   RenderOptions options;
   options.width = choice.view.size.x, options.height = choice.view.size.y;
   options.supersample = choice.view.supersample;

@@ -4,7 +4,7 @@
 // What stands before the camera in a comparison, baked where a contender wants it, and how a contender draws it.
 #pragma once
 
-#include <gloam/spheres.h>
+#include <gloam/spherical_lights.h>
 
 #include "bake_run.h"
 #include "compare_plan.h"
@@ -42,8 +42,13 @@ struct Drawn {
   Warnings warnings;
   std::string device;
 };
-/// Draws a contender with a renderer of its own (`spheres`: null unless it needs them), so that memory and times do not depend on who was drawn before.
+/// Null unless the contender needs them.
+struct ContenderSpheres {
+  const SceneSpheres* sets = nullptr;
+  const SceneEmission* sent = nullptr;
+};
+/// Draws a contender with a renderer of its own, so that memory and times do not depend on who was drawn before.
 Drawn drawContender(const CompareStage& stage, const CompareChoice& choice, const Contender& contender,
-                    const SceneSpheres* spheres, bool background, const Progress& progress);
+                    const ContenderSpheres& spheres, bool background, const Progress& progress);
 
 }  // namespace gloam::cli

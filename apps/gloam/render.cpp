@@ -11,6 +11,7 @@
 #include "arguments.h"
 #include "bake_run.h"
 #include "display_choice.h"
+#include "emission_run.h"
 #include "frame_plan.h"
 #include "output.h"
 #include "scene_inputs.h"
@@ -120,7 +121,7 @@ int runRender(RenderChoice choice, Console& console) {
         stage.technique->needs_spheres ? stage.options.settings.integer("spheres") : SphereOptions{}.count;
     spheres = spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache, console, count);
   }
-  if (stage.technique->needs_spheres) renderer.setSpheres(stage.scene, spheres);
+  giveSpheres(renderer, *stage.technique, stage.scene, spheres, choice.scene.name, choice.use_cache, console);
   std::optional<ProxySet> drawn_in;
   if (choice.layer == kShadowSpheresLayer) drawn_in.emplace(stage.scene, spheres);
 

@@ -9,8 +9,6 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
-#include "frame/lamp.glsl"
-#include "frame/shadow.glsl"
 #include "frame/view.glsl"
 #include "math/brdf.glsl"
 
@@ -26,11 +24,7 @@ layout(set = 0, binding = 7) uniform sampler2D specular;
 layout(set = 0, binding = 8, rgba32f) uniform image2D local_light;
 layout(constant_id = 0) const bool first = true;  // nothing to add to yet
 
-float lampShadow(vec3 position, vec3 geometric_normal) {
-  if (light.row.map_count == 0u) return 1.0;
-  uint face = light.row.map_count == 6u ? cubeFace(position - light.row.position) : 0u;
-  return shadowFactor(shadow_views.at[face], shadow_maps, int(light.row.first_map + face), position, geometric_normal);
-}
+#include "frame/lamp_shadow.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

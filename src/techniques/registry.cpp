@@ -7,6 +7,8 @@
 #include "techniques/irradiance/irradiance.h"
 #include "techniques/proxies/proxies.h"
 #include "techniques/prt/prt.h"
+#include "techniques/spherical_lights/spherical_lights.h"
+#include "techniques/splatting/splatting.h"
 #include "techniques/technique.h"
 
 namespace gloam {
@@ -28,6 +30,8 @@ const std::vector<Entry>& table() {
       {irradiance::info(), make<irradiance::Irradiance>},
       {prt::info(), make<prt::Prt>},
       {proxies::info(), make<proxies::Proxies>},
+      {spherical_lights::info(), make<spherical_lights::SphericalLights>},
+      {splatting::info(), make<splatting::Splatting>},
   };
   return entries;
 }

@@ -1,0 +1,243 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Guerrero, Jeschke, Wimmer 2008, "Real-time indirect illumination and soft shadows in dynamic scenes using spherical lights",
+// Figure 2: the pipeline. Differs from the paper: receivers are those of a picture, not vertices; receivers within spheres follow
+// spheres/receiver_rule.h; visibility is a product with one exponential an object, not a difference of two a sphere.
+#include "techniques/spherical_lights/spherical_lights.h"
+
+#include <algorithm>
+
+#include "shaders/spherical_lights_shaders.h"
+#include "techniques/spherical_lights/spherical_lights_prepare.h"
+#include "techniques/spherical_lights/spherical_lights_rows.h"
+#include "techniques/spherical_lights/spherical_lights_tables.h"
+
+namespace gloam::spherical_lights {
+
+namespace {
+
+constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+frame::Window windowOf(const std::string& name) {
+  if (name == "hann") return frame::Window::kHann;
+  if (name == "lanczos") return frame::Window::kLanczos;
+  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
+}
+
+int blockingOf(const Settings& settings) {
+  if (settings.choice("blocking") == "per_object") return kPerObject;
+  return settings.flag("reuse") ? kPerSphereReused : kPerSphere;
+}
+
+const std::vector<Option>& options() {
+  static const std::vector<Option> options = {
+      {.name = "spheres",
+       .default_value = 0,
+       .minimum = 0,
+       .maximum = 4096,
+       .help = "spheres that stand for all that casts, when they are made for this picture; 0: by size and "
+               "shape, 26 or more"},
+      {.name = "divisor",
+       .default_value = std::string("4"),
+       .choices = {"1", "2", "4", "8"},
+       .help = "light is computed for one receiver in a square of that many pixels a side"},
+      {.name = "blocking",
+       .default_value = std::string("per_object"),
+       .choices = {"per_object", "per_sphere"},
+       .help =
+           "a sphere's light is blocked by whole objects that are nearer, or by every single sphere that is"},
+      {.name = "reuse",
+       .default_value = true,
+       .help = "per_sphere: what nearer spheres block is summed once for all, not for each sphere again"},
+      {.name = "visibility",
+       .default_value = std::string("product"),
+       .choices = {"product", "difference"},
+       .help = "of a sphere behind others: its disc times what they leave, or the difference of two "
+               "exponentials (the paper's)"},
+      {.name = "average",
+       .default_value = std::string("solid_angle"),
+       .choices = {"solid_angle", "area"},
+       .help = "over which of a sphere's points its radiance is averaged: by how large they look, or how "
+               "they face (the paper's)"},
+      {.name = "lamp_radius",
+       .default_value = 0.0f,
+       .minimum = 0.0,
+       .maximum = 1000.0,
+       .help =
+           "metres: point lamps shine as balls of that radius, with soft shadows of spheres; 0: as points, "
+           "by shadow maps"},
+      {.name = "indirect",
+       .default_value = true,
+       .help = "light that spheres send; without it, shadows alone"},
+      {.name = "window",
+       .default_value = std::string("auto"),
+       .choices = {"none", "hann", "lanczos", "auto"},
+       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"}};
+  return options;
+}
+
+bool lampsAreBalls(const frame::FrameInputs& inputs, const Settings& settings) {
+  const std::vector<frame::LightRow>& lamps = inputs.shadow_maps.lights;
+  if (lamps.empty() || settings.number("lamp_radius") == 0.0f) return false;
+  const bool points =
+      std::ranges::all_of(lamps, [](const frame::LightRow& lamp) { return lamp.kind == frame::kLightPoint; });
+  if (!points)
+    inputs.warnings.push_back(
+        "spherical_lights: lamp_radius: there are lamps that are not points; all shine by shadow maps");
+  return points;
+}
+
+template <class T>
+gpu::BufferRef uploadRows(gpu::FrameGraph& graph, const char* name, std::vector<T> rows) {
+  if (rows.empty()) rows.push_back(T{});
+  return graph.upload(name, rows);
+}
+
+std::vector<float> cellRows() {
+  std::vector<float> rows;
+  for (const sh::Sh& cell : voronoiSums()) {
+    for (int i = 0; i < 16; ++i) rows.push_back(cell[i]);
+  }
+  return rows;
+}
+
+}  // namespace
+
+const TechniqueInfo& info() {
+  static const TechniqueInfo info = {
+      .name = "spherical_lights",
+      .summary = "soft shadows and shadowed colour between moving things, by spheres that light and block",
+      .covers = kAllLight,
+      .options = options(),
+      .needs_spheres = true,
+      .needs_emission = true};
+  return info;
+}
+
+SphericalLights::SphericalLights(gpu::Device& device)
+    : log_table_(device, "spherical_lights.log_table", logVisibilityTable()),
+      area_table_(device, "spherical_lights.area_table", averageTable(Average::kArea)),
+      solid_angle_table_(device, "spherical_lights.solid_angle_table", averageTable(Average::kSolidAngle)),
+      cells_(device, "spherical_lights.cells", cellRows()) {}
+
+/// What of a frame both passes read.
+struct SphericalLights::Step {
+  gpu::FrameGraph& graph;
+  const frame::FrameInputs& inputs;
+  const Settings& settings;
+  const Rows& rows;
+  bool lamps_are_balls, indirect;
+  gpu::BufferRef light, spheres, objects, meets, glow, averages;
+  GatherParams params;
+};
+
+/// First pass: light at surface samples, then what each sphere sends.
+gpu::BufferRef SphericalLights::recordSending(const Step& step) {
+  gpu::FrameGraph& graph = step.graph;
+  const Rows& rows = step.rows;
+  const auto point_count = std::uint32_t(rows.points.size()), count = step.params.spheres;
+  const gpu::BufferRef points = uploadRows(graph, "spherical_lights.points", rows.points);
+  const gpu::BufferRef arriving =
+      graph.create("spherical_lights.arriving", gpu::BufferDesc{.bytes = point_count * sizeof(glm::vec3)});
+  const gpu::BufferRef sent =
+      graph.create("spherical_lights.sent", gpu::BufferDesc{.bytes = count * sizeof(SentRow)});
+  graph.compute("spherical_lights.samples", spherical_lights_samples_spv)
+      .specialize("blocking", blockingOf(step.settings))
+      .specialize("difference", step.settings.choice("visibility") == "difference")
+      .specialize("glows", !rows.glow.empty())
+      .read("points", points)
+      .read("spheres", step.spheres)
+      .read("objects", step.objects)
+      .read("glow", step.glow)
+      .read("meets", step.meets)
+      .read("log_table", log_table_)
+      .read("average_table", step.averages)
+      .read("light", step.light)
+      .write("arriving", arriving)
+      .push(SampleParams{step.params, point_count})
+      .dispatchOver(int(point_count));
+  const frame::ShadowMaps& shadows = step.inputs.shadow_maps;
+  for (std::size_t i = 0; i < (step.lamps_are_balls ? 0 : shadows.lights.size()); ++i) {
+    graph.compute("spherical_lights.lamps", spherical_lights_lamps_spv)
+        .read("light", shadows.lightRow(i))
+        .read("shadow_views", shadows.viewRows(i))
+        .sample("shadow_maps", shadows.maps, gpu::kNearestClamp)
+        .read("points", points)
+        .readWrite("arriving", arriving)
+        .push(point_count)
+        .dispatchOver(int(point_count));
+  }
+  graph.compute("spherical_lights.emit", spherical_lights_emit_spv)
+      .read("arriving", arriving)
+      .read("cells", cells_)
+      .read("senders", uploadRows(graph, "spherical_lights.senders", rows.senders))
+      .write("sent", sent)
+      .dispatch(count);
+  return sent;
+}
+
+/// Second pass: what each receiver gets.
+frame::Lighting SphericalLights::recordGathering(const Step& step, gpu::BufferRef sent) {
+  const frame::ReceiverLevel& level = step.inputs.receivers.at(std::stoi(step.settings.choice("divisor")));
+  const auto image = [&](const char* name, VkFormat format) {
+    return step.graph.create(name,
+                             gpu::ImageDesc{.format = format, .width = level.width, .height = level.height});
+  };
+  const gpu::ImageRef direct = image("spherical_lights.direct", kHalves);
+  const gpu::ImageRef indirect = image("spherical_lights.indirect", kHalves);
+  step.graph.compute("spherical_lights.gather", spherical_lights_gather_spv)
+      .specialize("blocking", blockingOf(step.settings))
+      .specialize("difference", step.settings.choice("visibility") == "difference")
+      .specialize("has_indirect", step.indirect)
+      .specialize("glows", !step.rows.glow.empty())
+      .read("receiver_position", level.position)
+      .read("receiver_normal", level.normal_depth)
+      .read("spheres", step.spheres)
+      .read("objects", step.objects)
+      .read("sent", sent)
+      .read("glow", step.glow)
+      .read("meets", step.meets)
+      .read("log_table", log_table_)
+      .read("average_table", step.averages)
+      .read("light", step.light)
+      .write("direct", direct)
+      .write("indirect", indirect)
+      .write("visibility", image("spherical_lights.visibility", VK_FORMAT_R32_SFLOAT))
+      .write("unblocked", image("spherical_lights.unblocked", kHalves))
+      .push(step.params)
+      .dispatchOver(direct);
+  frame::Lighting lighting;
+  lighting.has_local_direct = step.lamps_are_balls;
+  lighting.irradiance.push_back({direct, frame::Path::kDirect, level.divisor, true});
+  if (step.indirect) lighting.irradiance.push_back({indirect, frame::Path::kIndirect, level.divisor, true});
+  return lighting;
+}
+
+frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                        const Settings& settings) {
+  if (inputs.emission == nullptr) throw Error("spherical_lights", "what spheres send was not set");
+  Rows rows = rowsOf(inputs.proxies, *inputs.emission);
+  warnOfMeetingObjects(rows, inputs.warnings);
+  const bool balls = lampsAreBalls(inputs, settings);
+  if (balls) addLamps(rows, inputs.shadow_maps.lights, settings.number("lamp_radius"), inputs.warnings);
+  const auto count = std::uint32_t(rows.spheres.size());
+  const sh::ShRgb light =
+      frame::windowed(inputs.environment.sh(), kEmissionOrder, windowOf(settings.choice("window")));
+  const Step step{.graph = graph,
+                  .inputs = inputs,
+                  .settings = settings,
+                  .rows = rows,
+                  .lamps_are_balls = balls,
+                  .indirect = settings.flag("indirect") && count > 0,
+                  .light = graph.uploadOne("spherical_lights.light", lightRows(light)),
+                  .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
+                  .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
+                  .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
+                  .glow = uploadRows(graph, "spherical_lights.glow", rows.glow),
+                  .averages = settings.choice("average") == "area" ? area_table_ : solid_angle_table_,
+                  .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words)}};
+  return recordGathering(step, step.indirect ? recordSending(step) : step.glow);
+}
+
+}  // namespace gloam::spherical_lights

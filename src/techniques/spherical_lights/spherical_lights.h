@@ -1,0 +1,28 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Spherical lights (Guerrero, Jeschke, Wimmer 2008; SL-1 to SL-10): everything may move; things stand in each other's light and
+// colour, by spheres whose light is shadowed where it arrives and where it goes. README.md has the rest.
+#pragma once
+
+#include "techniques/technique.h"
+
+namespace gloam::spherical_lights {
+
+const TechniqueInfo& info();
+
+class SphericalLights : public Technique {
+ public:
+  explicit SphericalLights(gpu::Device& device);
+  frame::Lighting record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                         const Settings& settings) override;
+
+ private:
+  struct Step;
+  gpu::BufferRef recordSending(const Step& step);
+  frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent);
+
+  gpu::Buffer log_table_, area_table_, solid_angle_table_, cells_;
+};
+
+}  // namespace gloam::spherical_lights

@@ -1,0 +1,150 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// All light at one receiver. Includers declare the constants blocking, difference, has_indirect, glows, the buffers spheres, objects,
+// sent, glow, meets, log_table, average_table, the uniform block light, and push push.params.
+#ifndef GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
+#define GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
+#include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+#include "techniques/spherical_lights/spherical_lights_shade.glsl"
+
+struct Gathered {
+  vec3 direct, indirect, unblocked;  // direct: with what glows by itself
+  float visibility;  // mean of what all spheres leave
+};
+
+/// The group (object, or sphere) that follows in order of its centre's distance, equal ones by number.
+uint nextGroup(vec3 position, inout float key, uint last) {
+  uint best = 0xffffffffu, count = blocking == kPerObject ? push.params.objects : push.params.spheres;
+  float least = 3e38;
+  for (uint g = 0u; g < count; ++g) {
+    vec3 d = (blocking == kPerObject ? objects.at[g].center : spheres.at[g].center) - position;
+    float far = dot(d, d);
+    bool after = far > key || (far == key && g > last && last != 0xffffffffu);
+    if (after && far < least) {
+      least = far;
+      best = g;
+    }
+  }
+  key = least;
+  return best;
+}
+
+bool meeting(uint i, uint j) {
+  uint bit = j - spheres.at[i].first;
+  return bit < spheres.at[i].count && (meets.at[i * push.params.words + bit / 32u] >> (bit % 32u) & 1u) != 0u;
+}
+
+/// Logs of what stands before sphere i, next to those of all groups before its own.
+Sh4 blockersWithin(vec3 position, vec3 normal, uint i, inout bool any_there) {
+  Sh4 sum = kNothing;
+  bool all = blocking == kPerSphere;
+  uint first = all ? 0u : spheres.at[i].first, end = all ? push.params.spheres : first + spheres.at[i].count;
+  vec3 to_i = spheres.at[i].center - position;
+  float own = dot(to_i, to_i);
+  for (uint j = first; j < end; ++j) {
+    vec3 to_j = spheres.at[j].center - position;
+    float far = dot(to_j, to_j);
+    bool nearer = far < own || (far == own && j < i);
+    if (j != i && nearer && meeting(i, j) == (blocking == kPerSphereReused)) {
+      any_there = true;
+      sum = plus(sum, logOf(position, normal, j));
+    }
+  }
+  return sum;
+}
+
+/// SL-4: radiance of sphere i, averaged, where f is the basis from it to the receiver, bands by their weights.
+#define GLOAM_TERMS(row, v, j) \
+  (f.v.x * row.at[j] + f.v.y * row.at[j + 1] + f.v.z * row.at[j + 2] + f.v.w * row.at[j + 3])
+#define GLOAM_RADIANCE(row) \
+  max(GLOAM_TERMS(row, a, 0) + GLOAM_TERMS(row, b, 4) + GLOAM_TERMS(row, c, 8) + GLOAM_TERMS(row, d, 12), vec3(0.0))
+/// y: the basis toward the sphere.
+Sh4 averageAt(TablePlace at, Sh4 y) {
+  return scaled(y, mix(average_table.at[at.below], average_table.at[at.below + 1], at.f) * vec4(1.0, -1.0, 1.0, -1.0));
+}
+
+Gathered gather(vec3 position, vec3 normal) {
+  Gathered got = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+  // The clamped cosine about the normal; its fourth band is 0.
+  Sh4 cosine = scaled(basisAt(normal), vec4(kShCosine0, kShCosine1, kShCosine2, 0.0));
+  Sh4 before = kNothing, own = kNothing, seen_through = kNothing;
+  const bool send = has_indirect || glows;
+  vec3 glowing = vec3(0.0);
+  bool kept = false;  // seen_through is that of `before`
+  float key = -1.0, clear = 0.0;
+  uint last = 0xffffffffu, i = 0u, left = 0u;
+  uint steps = push.params.spheres;
+  for (uint k = 0u; k <= steps; ++k) {
+    bool final = k == steps;
+    if (left == 0u) {
+      before = plus(before, own);
+      own = kNothing;
+      kept = false;
+      if (!final) {
+        last = nextGroup(position, key, last);
+        i = blocking == kPerObject ? objects.at[last].first : last;
+        left = blocking == kPerObject ? objects.at[last].count : 1u;
+      }
+    }
+    Sh4 blockers = before, y = kNothing, log_i = kNothing;
+    SeenSphere seen = SeenSphere(0.0, normal);
+    TablePlace at = TablePlace(0, 0.0);
+    bool more = false;
+    if (!final) {
+      seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      at = tablePlace(seen.sin_half_angle);
+      y = basisAt(seen.direction);
+      log_i = scaled(y, logAt(at));
+      log_i = scaled(log_i, spheres.at[i].blocks);
+      own = plus(own, log_i);
+      if (send && seen.sin_half_angle > 0.0) {
+        Sh4 within = blockersWithin(position, normal, i, more);
+        blockers = blocking == kPerSphere         ? within
+                   : blocking == kPerSphereReused ? plus(before, scaled(within, -1.0))
+                                                  : plus(before, within);
+        more = more || blocking == kPerSphere;
+      }
+    }
+    bool looked_at = send && seen.sin_half_angle > 0.0;
+    bool wanted = final || (looked_at && (more || !kept));
+    float behind = 0.0;
+    for (int t = 0; t < (difference ? 2 : 1); ++t) {
+      if (t == 0 ? !wanted : !looked_at) continue;
+      Sh4 f = blockers;
+      if (t == 1) f = plus(blockers, log_i);
+      float e[16];
+      shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
+      if (final) {
+        got.direct = irradianceThrough(e, normal);
+        got.visibility = e[0] / kShZonal0;
+      } else if (difference) {
+        float through = dotOf(GLOAM_SH4_OF(e), cosine);
+        if (t == 0) clear = through; else behind = through;
+      } else {
+        float product[16];
+        shProduct4(e, GLOAM_ARRAY_OF(cosine), product);
+        seen_through = GLOAM_SH4_OF(product);
+      }
+      if (t == 0) kept = !more;
+    }
+    if (looked_at) {
+      vec4 disc = discWeights(seen.sin_half_angle);
+      float share = difference ? clear - behind : dotOf(scaled(y, disc), seen_through);
+      share = max(share, 0.0);
+      Sh4 f = averageAt(at, y);
+      if (has_indirect) {
+        vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
+        got.indirect += radiance * share;
+        got.unblocked += radiance * max(0.0, dotOf(scaled(y, disc), cosine));
+      }
+      if (glows) glowing += GLOAM_RADIANCE(glow.at[i]) * share;
+    }
+    if (final) got.direct += glowing;
+    ++i;
+    if (left > 0u) --left;
+  }
+  return got;
+}
+
+#endif

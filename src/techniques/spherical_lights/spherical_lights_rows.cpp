@@ -1,0 +1,116 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Guerrero, Jeschke, Wimmer 2008, section 7.4: what goes to the device each frame; there in textures, here in buffers.
+#include "techniques/spherical_lights/spherical_lights_rows.h"
+
+#include <fmt/format.h>
+
+#include "techniques/spherical_lights/spherical_lights_tables.h"
+
+namespace gloam::spherical_lights {
+
+namespace {
+
+/// Middle of the box round an object's spheres.
+glm::vec3 middleOf(std::span<const frame::Proxy> proxies) {
+  glm::vec3 low(INFINITY), high(-INFINITY);
+  for (const frame::Proxy& proxy : proxies) {
+    low = glm::min(low, proxy.center - proxy.radius);
+    high = glm::max(high, proxy.center + proxy.radius);
+  }
+  return 0.5f * (low + high);
+}
+
+SenderRow senderOf(const frame::ProxyEmission& emission) {
+  SenderRow row{};
+  for (int i = 0; i < 16; ++i) row.albedo[i] = (*emission.albedo)[i];
+  bandRotation(emission.world_from_shape, row.turn);
+  return row;
+}
+
+SentRow glowOf(const frame::ProxyEmission& emission) {
+  SentRow row{};
+  const sh::ShRgb turned = sh::rotate(emission.world_from_shape, *emission.glow);
+  for (int i = 0; i < 16; ++i) row.at[i] = turned[i];
+  return row;
+}
+
+}  // namespace
+
+Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emission) {
+  if (emission.proxies.size() != proxies.size() ||
+      emission.points.size() != proxies.size() * std::size_t(kDirections))
+    throw Error("spherical_lights", "what spheres send is not that of these spheres");
+  Rows rows;
+  rows.words = std::max(1, emission.words);
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    const frame::ProxyEmission& sent = emission.proxies[i];
+    rows.spheres.push_back({proxies[i].center, proxies[i].radius, std::uint32_t(sent.object),
+                            std::uint32_t(sent.first), std::uint32_t(sent.count), 1.0f});
+    if (int(i) == sent.first)
+      rows.objects.push_back({middleOf(proxies.subspan(i, std::size_t(sent.count))),
+                              std::uint32_t(sent.first), std::uint32_t(sent.count)});
+    rows.senders.push_back(senderOf(sent));
+    if (emission.glows) rows.glow.push_back(glowOf(sent));
+  }
+  for (const frame::EmissionPoint& point : emission.points)
+    rows.points.push_back({point.position, point.sends, point.normal, 0.0f});
+  rows.meets = emission.meets;
+  return rows;
+}
+
+void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, Warnings& warnings) {
+  const std::size_t things = rows.spheres.size();
+  int within = 0;
+  for (const frame::LightRow& lamp : lamps) {
+    if (lamp.kind != frame::kLightPoint) continue;
+    for (std::size_t i = 0; i < things; ++i) {
+      if (glm::distance(lamp.position, rows.spheres[i].center) >= rows.spheres[i].radius) continue;
+      ++within;
+      break;
+    }
+    const auto index = std::uint32_t(rows.spheres.size());
+    rows.glow.resize(rows.spheres.size());
+    rows.spheres.push_back({lamp.position, radius, std::uint32_t(rows.objects.size()), index, 1u, 0.0f});
+    rows.objects.push_back({lamp.position, index, 1u});
+    SentRow glow{};  // a ball of radiance L has the intensity L pi r^2
+    glow.at[0] = lamp.intensity / (3.14159265f * radius * radius) * sh::zonalFactor(0);
+    rows.glow.push_back(glow);
+    rows.senders.push_back({});
+    rows.points.resize(rows.points.size() + std::size_t(kDirections));
+    rows.meets.resize(rows.meets.size() + std::size_t(rows.words), 0u);
+  }
+  if (within > 0)
+    warnings.push_back(
+        fmt::format("spherical_lights: {} lamp{} within the spheres of an object, which hide {}", within,
+                    within == 1 ? " stands" : "s stand", within == 1 ? "it" : "them"));
+}
+
+void warnOfMeetingObjects(const Rows& rows, Warnings& warnings) {
+  int pairs = 0;
+  std::size_t first = 0, second = 0;
+  for (std::size_t a = 0; a < rows.objects.size(); ++a) {
+    for (std::size_t b = a + 1; b < rows.objects.size(); ++b) {
+      bool meet = false;
+      if (rows.spheres[rows.objects[a].first].blocks == 0.0f ||
+          rows.spheres[rows.objects[b].first].blocks == 0.0f)
+        continue;
+      for (std::uint32_t i = 0; i < rows.objects[a].count && !meet; ++i) {
+        const SphereRow& s = rows.spheres[rows.objects[a].first + i];
+        for (std::uint32_t j = 0; j < rows.objects[b].count && !meet; ++j) {
+          const SphereRow& t = rows.spheres[rows.objects[b].first + j];
+          meet = glm::distance(s.center, t.center) < s.radius + t.radius;
+        }
+      }
+      if (meet && pairs++ == 0) first = a, second = b;
+    }
+  }
+  if (pairs > 0)
+    warnings.push_back(
+        fmt::format("spherical_lights: spheres of {} pair{} of objects meet (objects {} and {}{}): light "
+                    "between those is rough",
+                    pairs, pairs == 1 ? "" : "s", first, second, pairs == 1 ? "" : ", …"));
+}
+
+}  // namespace gloam::spherical_lights
