@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/implicit_surface.h"
+#include "scene/soft_parts.h"
 
 namespace gloam::figure {
 namespace {
@@ -16,7 +17,6 @@ constexpr float kTorsoBlend_m = 0.14f;  // how far parts melt into each other
 constexpr float kBlend_m = 0.045f;
 constexpr float kSoften_m = 0.032f;  // how far influence reaches over a joint
 
-/// A capsule whose radius changes along it.
 struct Part {
   Joint joint;
   glm::vec3 a, b;
@@ -62,14 +62,7 @@ std::vector<Part> parts() {
 }
 
 float distanceTo(const Part& part, const glm::vec3& p) {
-  const glm::vec3 ab = part.b - part.a;
-  const float t = std::clamp(glm::dot(p - part.a, ab) / glm::dot(ab, ab), 0.0f, 1.0f);
-  return glm::length(p - part.a - t * ab) - glm::mix(part.radius_a, part.radius_b, t);
-}
-
-float smoothMinimum(float a, float b, float reach) {
-  const float h = std::max(0.0f, reach - std::abs(a - b)) / reach;
-  return std::min(a, b) - 0.25f * h * h * reach;
+  return gloam::distanceTo(TaperedCapsule{part.a, part.b, part.radius_a, part.radius_b}, p);
 }
 
 /// The four joints that a point follows most, weights summing to 1.

@@ -80,6 +80,17 @@ Scene makeTextured(const Detail& detail, NamedValues& values);        // builtin
 Scene makeCloud(const Detail& detail, NamedValues& values);           // builtin_cloud.cpp
 Scene makePassing(const Detail& detail, NamedValues& values);         // builtin_neighbours.cpp
 Scene makeRing(const Detail& detail, NamedValues& values);            //
+Scene makeSquirrel(const Detail& detail, NamedValues& values);        // builtin_squirrel.cpp
+Scene makeRobot(const Detail& detail, NamedValues& values);           // builtin_robot.cpp
+Scene makePackages(const Detail& detail, NamedValues& values);        // builtin_packages.cpp
+Scene makeAssembly(const Detail& detail, NamedValues& values);        // builtin_assembly.cpp
+Scene makeBalls(const Detail& detail, NamedValues& values);           // builtin_trials.cpp
+Scene makePair(const Detail& detail, NamedValues& values);            //
+Scene makeBend(const Detail& detail, NamedValues& values);            //
+Scene makeBox(const Detail& detail, NamedValues& values);             //
+Scene makeLinks(const Detail& detail, NamedValues& values);           //
+Scene makeBars(const Detail& detail, NamedValues& values);            //
+Scene makeFurnacePair(const Detail& detail, NamedValues& values);     //
 Scene makeWalker(const Detail& detail, NamedValues& values);          // builtin_walker.cpp
 
 }  // namespace gloam
