@@ -42,15 +42,22 @@ const std::vector<Option>& options() {
                "a disc of that area, "
                "or nothing"},
       {.name = "normal_threshold",
-       .default_value = 0.5f,
+       .default_value = 0.2f,
        .minimum = 0.0,
        .maximum = 2.0,
-       .help = "difference of a component of the normal beyond which a texel is split"},
+       .help = "difference of a component of the normal from which on a texel is split; 0: all"},
       {.name = "depth_threshold",
        .default_value = 0.1f,
        .minimum = 0.0,
        .maximum = 1000.0,
-       .help = "difference of depth, in parts of it, beyond which a texel is split"},
+       .help = "difference of depth, in parts of it, from which on a texel is split; 0: all"},
+      {.name = "light_threshold",
+       .default_value = 0.05f,
+       .minimum = 0.0,
+       .maximum = 1000.0,
+       .help = "size of a texel on its surface, in parts of the mean distance of its light, from which on it "
+               "is split; 0: whatever "
+               "its size"},
       {.name = "normals",
        .default_value = std::string("geometric"),
        .choices = {"geometric", "shading"},
@@ -112,41 +119,6 @@ gpu::ImageRef recordFull(gpu::FrameGraph& graph, const frame::FrameInputs& input
   return light;
 }
 
-/// Light of all subsplats, into the levels' images.
-void recordGather(gpu::FrameGraph& graph, const Plan& plan, std::vector<Level>& levels,
-                  const Subsplats& subsplats, const vpls::Vpls& vpls, int bound) {
-  const std::size_t pixels = std::size_t(levels[0].width) * std::size_t(levels[0].height);
-  const auto light = graph.create("splatting.light", gpu::BufferDesc{.bytes = pixels * sizeof(glm::vec3)});
-  const auto arguments = [&](std::uint32_t index) {
-    return subsplats.arguments.slice(index * sizeof(Groups), sizeof(Groups));
-  };
-  for (std::uint32_t i = 0; i < vpls.chunks(); ++i) {
-    auto& pass = graph.compute("splatting.gather", splatting_gather_spv);
-    (i == 0 ? pass.write("light", light) : pass.readWrite("light", light))
-        .specialize("first", i == 0)
-        .specialize("bound_kind", bound)
-        .read("vpls", vpls.chunk(i))
-        .read("counts", subsplats.counts)
-        .read("subsplats", subsplats.points)
-        .dispatchIndirect(arguments(kMostLevels + i));
-  }
-  for (int k = plan.coarsest; k >= plan.finest; --k) {
-    Level& level = levels[std::size_t(k)];
-    level.light = graph.create(
-        fmt::format("splatting.light_{}", k),
-        gpu::ImageDesc{
-            .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = level.width, .height = level.height});
-    graph.clear("splatting.place", level.light);
-    graph.compute("splatting.place", splatting_place_spv)
-        .read("counts", subsplats.counts)
-        .read("leaves", level.leaves)
-        .read("light", light)
-        .write("level_light", level.light)
-        .push(std::int32_t(k))
-        .dispatchIndirect(arguments(std::uint32_t(k)));
-  }
-}
-
 }  // namespace
 
 const TechniqueInfo& info() {
@@ -178,7 +150,7 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                                          : Upsampling::kBlocks;
     std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
     const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, vpls);
-    recordGather(graph, plan, levels, subsplats, vpls, bound);
+    recordGather(graph, inputs, plan, levels, subsplats, vpls, {bound, settings.number("light_threshold")});
     irradiance = recordUpsampling(graph, levels, thresholds, upsampling, settings.number("detail"),
                                   inputs.view, inputs.gbuffer.normals);
   }

@@ -19,44 +19,6 @@ struct RefinePush {
   Thresholds thresholds;
   std::int32_t level;
 };
-struct ArgumentsPush {
-  std::int32_t level, finest, pixel_leaves, chunks;
-};
-
-gpu::BufferRef argumentsOf(const Subsplats& subsplats, int index) {
-  return subsplats.arguments.slice(std::size_t(index) * sizeof(Groups), sizeof(Groups));
-}
-
-void recordArguments(gpu::FrameGraph& graph, const Subsplats& subsplats, const vpls::Vpls& vpls,
-                     bool at_the_end, const ArgumentsPush& push) {
-  graph.compute("splatting.arguments", splatting_arguments_spv)
-      .specialize("at_the_end", at_the_end)
-      .readWrite("counts", subsplats.counts)
-      .write("arguments", subsplats.arguments)
-      .read("vpl_count", vpls.count)
-      .push(push)
-      .dispatch(1);
-}
-
-void recordPoints(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                  std::span<const Level> levels, const Subsplats& subsplats) {
-  for (int k = plan.coarsest; k >= plan.finest; --k) {
-    const Level& level = levels[std::size_t(k)];
-    const Level& means = levels[std::size_t(std::max(k, 1))];
-    graph.compute("splatting.points", splatting_points_spv)
-        .specialize("at_pixel", k == plan.finest)
-        .read("frame_view", inputs.view)
-        .read("depth", inputs.gbuffer.depth)
-        .read("normals", inputs.gbuffer.normals)
-        .read("positions", means.positions)
-        .read("shadings", means.shadings)
-        .read("counts", subsplats.counts)
-        .read("leaves", level.leaves)
-        .write("subsplats", subsplats.points)
-        .push(std::int32_t(k))
-        .dispatchIndirect(argumentsOf(subsplats, k));
-  }
-}
 
 }  // namespace
 
@@ -109,27 +71,29 @@ std::vector<Level> recordRanges(gpu::FrameGraph& graph, const frame::FrameInputs
 
 Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            std::vector<Level>& levels, const Thresholds& thresholds, const vpls::Vpls& vpls) {
-  const std::size_t pixels = std::size_t(levels[0].width) * std::size_t(levels[0].height);
+  // Those that were split, coarser ones, are at most a third as many as pixels.
+  const std::size_t most = std::size_t(levels[0].width) * std::size_t(levels[0].height) * 4 / 3 + 4096;
   Subsplats subsplats;
   subsplats.counts = graph.create("splatting.counts", gpu::BufferDesc{.bytes = sizeof(Counts)});
   subsplats.arguments =
       graph.create("splatting.arguments",
-                   gpu::BufferDesc{.bytes = (std::size_t(kMostLevels) + vpls.chunks()) * sizeof(Groups)});
-  subsplats.points = graph.create("splatting.points", gpu::BufferDesc{.bytes = pixels * sizeof(Subsplat)});
+                   gpu::BufferDesc{.bytes = kMostLevels * (1 + std::size_t(vpls.chunks())) * sizeof(Groups)});
+  subsplats.points = graph.create("splatting.points", gpu::BufferDesc{.bytes = most * sizeof(Subsplat)});
+  subsplats.light = graph.create("splatting.light", gpu::BufferDesc{.bytes = most * sizeof(glm::vec4)});
   graph.clear("splatting.counts", subsplats.counts);
-  const gpu::BufferRef nothing = graph.uploadOne("splatting.nothing", std::uint32_t(0));
   const auto places = [&](const char* name, int k) {
     const Level& level = levels[std::size_t(k)];
     return graph.create(fmt::format("splatting.{}_{}", name, k),
                         gpu::BufferDesc{.bytes = 4 * std::size_t(level.width) * std::size_t(level.height)});
   };
-  gpu::BufferRef queue = nothing;
+  for (int k = plan.finest; k <= plan.coarsest; ++k) levels[std::size_t(k)].leaves = places("leaves", k);
+  gpu::BufferRef queue = graph.uploadOne("splatting.nothing", std::uint32_t(0));
   for (int k = plan.coarsest; k >= std::max(plan.finest, 1); --k) {
-    Level& level = levels[std::size_t(k)];
+    const Level& level = levels[std::size_t(k)];
     const bool splits = k > plan.finest;
-    level.leaves = places("leaves", k);
-    const gpu::BufferRef children =
-        splits ? places("queue", k - 1) : graph.create("splatting.unused", gpu::BufferDesc{.bytes = 4});
+    const gpu::BufferRef children = !splits  ? graph.create("splatting.unused", gpu::BufferDesc{.bytes = 4})
+                                    : k == 1 ? levels[0].leaves
+                                             : places("queue", k - 1);
     auto& pass =
         graph.compute("splatting.refine", splatting_refine_spv)
             .specialize("coarsest", k == plan.coarsest)
@@ -146,16 +110,17 @@ Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inp
     if (k == plan.coarsest)
       pass.dispatchOver(level.width * level.height);
     else
-      pass.dispatchIndirect(argumentsOf(subsplats, k));
-    if (!splits) break;
+      pass.dispatchIndirect(subsplats.arguments.slice(std::size_t(k) * sizeof(Groups), sizeof(Groups)));
+    if (!splits || k == 1) break;
     queue = children;
-    if (k - 1 > 0) recordArguments(graph, subsplats, vpls, false, {k - 1, 0, 0, 0});
+    graph.compute("splatting.refine", splatting_arguments_spv)
+        .specialize("of_leaves", false)
+        .readWrite("counts", subsplats.counts)
+        .write("arguments", subsplats.arguments)
+        .read("vpl_count", vpls.count)
+        .push(LevelPush{k - 1, plan.finest, 0, 0.0f})
+        .dispatch(1);
   }
-  const bool pixel_leaves = plan.finest == 0;
-  if (pixel_leaves) levels[0].leaves = queue;
-  recordArguments(graph, subsplats, vpls, true,
-                  {plan.coarsest, plan.finest, pixel_leaves ? 1 : 0, std::int32_t(vpls.chunks())});
-  recordPoints(graph, inputs, plan, levels, subsplats);
   return subsplats;
 }
 

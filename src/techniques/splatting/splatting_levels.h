@@ -32,17 +32,30 @@ struct Level {
 
 struct Subsplats {
   gpu::BufferRef points;     ///< Subsplat, coarse levels first
+  gpu::BufferRef light;      ///< irradiance; A: its change, where asked for
   gpu::BufferRef counts;     ///< Counts
-  gpu::BufferRef arguments;  ///< Groups: of levels, then, from kMostLevels on, of chunks of lights
+  gpu::BufferRef arguments;  ///< Groups: by level, then by level and chunk of lights
 };
 
 /// MS-3: passes "splatting.ranges". By shading normals, or geometric ones.
 std::vector<Level> recordRanges(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                                 bool by_shading_normal);
 
-/// MS-4: passes "splatting.refine", "splatting.arguments", "splatting.points"; sets the levels' leaves.
+/// MS-4: passes "splatting.refine"; sets the levels' leaves.
 Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            std::vector<Level>& levels, const Thresholds& thresholds, const vpls::Vpls& vpls);
+
+struct GatherOptions {
+  int bound_kind = 1;  ///< splatting_light.glsl
+  float light_threshold =
+      0.0f;  ///< MS-10: texels larger than this part of the mean distance of their light are split; 0: none
+};
+
+/// MS-5, from coarse to fine: "splatting.points", "splatting.gather", "splatting.converge", "splatting.place"; sets the levels'
+/// light.
+void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                  std::vector<Level>& levels, const Subsplats& subsplats, const vpls::Vpls& vpls,
+                  const GatherOptions& options);
 
 enum class Upsampling : std::uint8_t {
   kSurfaces,  ///< MS-6, and not across edges that run along borders of texels

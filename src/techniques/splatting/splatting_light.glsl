@@ -17,4 +17,12 @@ void addVpl(inout vec3 sum, VplRow vpl, vec3 position, vec3 normal) {
   sum += vpl.intensity * (cosines / (squared * bounded));
 }
 
+/// With the light's change in A: all of it over its distance.
+void addVplAndChange(inout vec4 sum, VplRow vpl, vec3 position, vec3 normal) {
+  vec3 light = vec3(0.0);
+  addVpl(light, vpl, position, normal);
+  vec3 between = vpl.position - position;
+  sum += vec4(light, (light.r + light.g + light.b) * inversesqrt(max(dot(between, between), 1e-12)));
+}
+
 #endif

@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Light of one level's subsplats into that level of the buffer.
+// Light of one level's subsplats into that level of the buffer. That of texels which were split after all serves their
+// neighbours' interpolation alone.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,13 +11,14 @@
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) readonly buffer CountsBlock { Counts value; } counts;
 layout(scalar, set = 0, binding = 1) readonly buffer Leaves { uint at[]; } leaves;
-layout(scalar, set = 0, binding = 2) readonly buffer Light { vec3 at[]; } light;
-layout(set = 0, binding = 3) uniform writeonly image2D level_light;  // A: 1
+layout(scalar, set = 0, binding = 2) readonly buffer Light { vec4 at[]; } light;
+layout(set = 0, binding = 3) uniform writeonly image2D level_light;  // A: 1, or -1 where it was split
 layout(scalar, push_constant) uniform Push { int level; } push;
 
 void main() {
   uint index = gl_WorkGroupID.y * kRowOfGroups * uint(kGroup) + gl_GlobalInvocationID.x;
   if (index >= counts.value.leaves[push.level]) return;
   uint place = leaves.at[index];
-  imageStore(level_light, ivec2(place & 0xffffu, place >> 16), vec4(light.at[counts.value.first_leaf[push.level] + index], 1.0));
+  vec3 irradiance = light.at[counts.value.first_leaf[push.level] + index].rgb;
+  imageStore(level_light, ivec2(place & 0xffffu, (place & ~kSplit) >> 16), vec4(irradiance, (place & kSplit) != 0u ? -1.0 : 1.0));
 }

@@ -10,7 +10,7 @@
 
 layout(constant_id = 0) const bool coarsest = true;
 layout(constant_id = 1) const bool splits = true;          // false: the finest level that is allowed
-layout(constant_id = 2) const bool children_are_pixels = false;
+layout(constant_id = 2) const bool children_are_pixels = false;  // and leaves
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D least;
@@ -38,13 +38,16 @@ void main() {
   vec4 low = texelFetch(least, at, 0), high = texelFetch(greatest, at, 0);
   if (high.w < 0.0) return;
   vec4 span = high - low;
-  bool varies = max(span.x, max(span.y, span.z)) > push.thresholds.normal || span.w > push.thresholds.depth * low.w;
+  // Thresholds of 0 split all.
+  bool varies = max(span.x, max(span.y, span.z)) >= push.thresholds.normal || span.w >= push.thresholds.depth * low.w;
   if (!splits || !varies) {
     leaves.at[atomicAdd(counts.value.leaves[push.level], 1u)] = place;
     return;
   }
   for (int i = 0; i < 4; ++i) {
     ivec2 child = 2 * at + ivec2(i & 1, i >> 1);
-    if (isCovered(child)) children.at[atomicAdd(counts.value.queued[push.level - 1], 1u)] = uint(child.x) | (uint(child.y) << 16);
+    if (!isCovered(child)) continue;
+    uint at_child = children_are_pixels ? atomicAdd(counts.value.leaves[0], 1u) : atomicAdd(counts.value.queued[push.level - 1], 1u);
+    children.at[at_child] = uint(child.x) | (uint(child.y) << 16);
   }
 }

@@ -21,6 +21,9 @@ struct Groups {
   uint x, y, z;
 };
 
+/// Bit in the place of a subsplat that was split after all.
+GLOAM_SHARED_CONST uint kSplit = 0x80000000u;
+
 /// How many, counted on the device. Texels of a level that are split or kept wait in its queue; those kept are its leaves.
 struct Counts {
   uint queued[16];
@@ -37,6 +40,14 @@ GLOAM_SHARED_CONST uint kRowOfGroups = 32768u;  // a dispatch of n groups has ro
 struct Thresholds {
   float normal;  // difference of a component, 0 to 2
   float depth;   // difference over the least
+};
+
+/// Which level, for passes that make its dispatches.
+struct LevelPush {
+  int level;
+  int finest;       // level 0 as such: its queue holds leaves
+  int chunks;       // of lights
+  float threshold;  // of a texel's size over the mean distance of its light; 0: not asked
 };
 
 GLOAM_SHARED_END

@@ -21,7 +21,8 @@ struct Picture {
   Counts counts{};
 };
 
-Picture draw(const Scene& scene, const Settings& settings, int width, int height, const PosedCamera* camera = nullptr) {
+Picture draw(const Scene& scene, const Settings& settings, int width, int height,
+             const PosedCamera* camera = nullptr) {
   frame::TestFrame frame(scene);
   Splatting technique(gpu::testDevice());
   const PosedScene posed = pose(scene, 0.0f);
@@ -60,10 +61,166 @@ TEST(Splatting, ManyResolutionsComeNearTheFullSumForFarLess) {
   const Scene scene = loadScene("builtin:cornell?detail=0.5");
   const Picture full = draw(scene, settings({{"mode", "full"}}), 384, 384);
   const Picture coarse = draw(scene, settings({}), 384, 384);
-  const double error = relativeError(coarse, full);
-  printf("error %g, subsplats %u of %u\n", error, coarse.counts.subsplats, 384u * 384u);
-  EXPECT_LT(error, 0.02);
-  EXPECT_LT(coarse.counts.subsplats, 384u * 384u / 8);
+  EXPECT_LT(relativeError(coarse, full), 0.02);
+  EXPECT_LT(coarse.counts.subsplats, 384u * 384u * 2 / 5);
+  // The paper's own ways, which take fewer: no word of the light's change, edges mixed where they run along texels.
+  const Picture paper = draw(scene, settings({{"light_threshold", "0"}, {"upsample", "paper"}}), 384, 384);
+  EXPECT_LT(relativeError(paper, full), 0.1);
+  EXPECT_LT(paper.counts.subsplats, coarse.counts.subsplats);
+  const Picture blocks = draw(scene, settings({{"upsample", "blocks"}}), 384, 384);
+  EXPECT_GT(relativeError(blocks, full), 1.5 * relativeError(coarse, full));
+}
+
+// Inside a diffuse sphere, light from any point of it falls evenly on all: E = rho I / R^2, wherever the lamp stands.
+TEST(Splatting, InsideOfASphereIsLitEvenly) {
+  SceneBuilder builder("sphere");
+  builder.place("sphere", shapes::icosphere(2.0f, 40), builder.diffuse("white", {0.8f, 0.5f, 0.2f}));
+  Light lamp;
+  lamp.type = Light::Type::kPoint;
+  lamp.intensity = glm::vec3(5.0f);
+  builder.light(lamp, {0.5f, -0.3f, 0.8f});
+  const Scene scene = builder.finish();
+  const PosedCamera camera = frame::cameraAt({0.2f, 0.1f, 0.0f}, {-1, 0.2f, -1}, 80);
+  for (const char* mode : {"full", "multiresolution"}) {
+    for (const char* sampling : {"grid", "importance"}) {
+      const Picture picture =
+          draw(scene, settings({{"mode", mode}, {"sampling", sampling}, {"bound", "none"}, {"vpls", "1000"}}),
+               96, 72, &camera);
+      const glm::vec3 want = glm::vec3(0.8f, 0.5f, 0.2f) * 5.0f / 4.0f;
+      glm::dvec3 mean(0.0);
+      for (std::size_t i = 0; i < picture.ids.size(); ++i) {
+        ASSERT_GT(picture.ids[i].x, 0u);
+        for (std::size_t c = 0; c < 3; ++c) {
+          mean[int(c)] += picture.irradiance[4 * i + c] / double(picture.ids.size());
+          ASSERT_NEAR(picture.irradiance[4 * i + c], want[int(c)], 0.1f * want[int(c)]) << mode << ' ' << i;
+        }
+      }
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], want[c], 0.01 * want[c]) << mode << ' ' << sampling;
+    }
+  }
+}
+
+// At some pixels, the sum over all virtual lights in doubles.
+TEST(Splatting, FullSumIsThatOverAllLights) {
+  const Scene scene = loadScene("builtin:lamp?detail=0.3");
+  frame::TestFrame frame(scene);
+  Splatting technique(gpu::testDevice());
+  const PosedScene posed = pose(scene, 0.0f);
+  for (const char* bound : {"none", "area", "disc"}) {
+    const Settings chosen = settings({{"mode", "full"}, {"bound", bound}, {"vpls", "300"}});
+    frame.draw(posed, posed.cameras.at(0), {.width = 60, .height = 40},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 return technique.record(graph, inputs, chosen);
+               });
+    const std::vector<float> got = frame.floats("splatting.irradiance"),
+                             positions = frame.floats("frame.receiver_position_1"),
+                             normals = frame.floats("frame.receiver_normal_1");
+    const auto rows = frame.graph.findBuffer("vpls.rows").buffer().download<vpls::VplRow>();
+    for (std::size_t i = 5; i < 2400; i += 97) {
+      if (positions[4 * i + 3] == 0.0f) continue;
+      const glm::dvec3 p(positions[4 * i], positions[4 * i + 1], positions[4 * i + 2]),
+          n(normals[4 * i], normals[4 * i + 1], normals[4 * i + 2]);
+      glm::dvec3 sum(0.0);
+      for (const vpls::VplRow& row : rows) {
+        const glm::dvec3 d = glm::dvec3(row.position) - p;
+        const double squared = glm::dot(d, d), b = row.bound;
+        if (squared == 0.0) continue;
+        const double bounded = bound[0] == 'n'   ? squared
+                               : bound[0] == 'a' ? std::max(squared, b)
+                                                 : squared + b;
+        const glm::dvec3 way = d / std::sqrt(squared);
+        sum += glm::dvec3(row.intensity) * (std::max(0.0, glm::dot(n, way)) *
+                                            std::max(0.0, -glm::dot(glm::dvec3(row.normal), way)) / bounded);
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(got[4 * i + c], sum[int(c)], 2e-4 * sum[int(c)] + 1e-6) << bound << ' ' << i;
+    }
+  }
+}
+
+TEST(Splatting, DetailDarkensWhatIsTurnedAway) {
+  const Scene scene = loadScene("builtin:cornell?detail=0.5");
+  const Picture plain = draw(scene, settings({}), 64, 64);
+  const Picture half = draw(scene, settings({{"detail", "0.5"}}), 64, 64);
+  double least = 1.0, greatest = 0.0;
+  for (std::size_t i = 0; i < plain.ids.size(); ++i) {
+    if (plain.ids[i].x == 0 || plain.irradiance[4 * i] <= 0.0f) continue;
+    const double ratio = half.irradiance[4 * i] / plain.irradiance[4 * i];
+    least = std::min(least, ratio);
+    greatest = std::max(greatest, ratio);
+  }
+  EXPECT_GE(least, 0.5 - 1e-4);
+  EXPECT_LT(least, 0.7);  // side walls and floor
+  EXPECT_GT(greatest, 0.99);
+  EXPECT_LE(greatest, 1.0 + 1e-4);
+}
+
+TEST(Splatting, LevelsFitAnyPicture) {
+  EXPECT_EQ(planLevels(1024, 1024, 16, 0).coarsest, 6);
+  EXPECT_EQ(planLevels(1280, 720, 16, 0).coarsest, 5);
+  EXPECT_EQ(planLevels(15, 2000, 16, 0).coarsest, 0);
+  EXPECT_EQ(planLevels(1024, 1024, 16, 256).finest, 2);
+  EXPECT_EQ(planLevels(1024, 1024, 16, 4).finest, 6);
+  const Scene scene = loadScene("builtin:cornell?detail=0.3");
+  for (const auto& [width, height] :
+       {std::pair(1, 1), std::pair(33, 200), std::pair(67, 35), std::pair(5, 90)}) {
+    const Picture full = draw(scene, settings({{"mode", "full"}}), width, height),
+                  many = draw(scene, settings({}), width, height);
+    EXPECT_LT(relativeError(many, full), 0.08) << width << ' ' << height;
+  }
+  // Fewer texels than pixels at the finest level, down to none but the coarsest.
+  const Picture full = draw(scene, settings({{"mode", "full"}}), 128, 128);
+  for (const char* resolution : {"64", "32", "16", "1"})
+    EXPECT_LT(relativeError(draw(scene, settings({{"resolution", resolution}}), 128, 128), full), 0.5)
+        << resolution;
+}
+
+TEST(Splatting, WhatIsAskedForBadlyHasAnAnswer) {
+  Scene scene = loadScene("builtin:cornell?detail=0.3");
+  EXPECT_THROW(settings({{"vpls", "-1"}}), Error);
+  EXPECT_THROW(settings({{"vpls", "100001"}}), Error);
+  frame::TestFrame frame(scene);
+  Splatting technique(gpu::testDevice());
+  const auto terms = [&](const PosedScene& posed, const Settings& chosen) {
+    std::size_t count = 99;
+    frame.draw(posed, posed.cameras.at(0), {.width = 40, .height = 40},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 const frame::Lighting lighting = technique.record(graph, inputs, chosen);
+                 count = lighting.irradiance.size();
+                 return lighting;
+               });
+    return count;
+  };
+  PosedScene posed = pose(scene, 0.0f);
+  EXPECT_EQ(terms(posed, settings({})), 1u);
+  EXPECT_EQ(terms(posed, settings({{"vpls", "0"}})), 0u);
+  const auto allFinite = [&] {
+    for (const float x : frame.floats("splatting.irradiance")) {
+      if (!std::isfinite(x) || x < 0.0f) return false;
+    }
+    return true;
+  };
+  PosedLight& lamp = posed.lights.at(0);
+  for (const auto& position :
+       {glm::vec3(0, -0.05f, 0), glm::vec3(1e4f, 0, 0), glm::vec3(-0.36f, 0.3f, -0.32f)}) {
+    lamp.position = position;  // in the floor, far away, in a box
+    EXPECT_EQ(terms(posed, settings({{"bound", "none"}})), 1u);
+    EXPECT_TRUE(allFinite()) << position.x;
+  }
+  lamp.position = {0, 1, 0};
+  for (const float cone : {0.0f, 1e-6f, 3.14159265f}) {
+    lamp.light.inner_cone_rad = lamp.light.outer_cone_rad = cone;
+    EXPECT_EQ(terms(posed, settings({})), 1u);
+    EXPECT_TRUE(allFinite()) << cone;
+  }
+  lamp.light.intensity = glm::vec3(0.0f);
+  EXPECT_EQ(terms(posed, settings({})), 0u);
+}
+
+TEST(Splatting, SamePictureAgain) {
+  const Scene scene = loadScene("builtin:lamp?detail=0.3");
+  const Picture one = draw(scene, settings({}), 90, 60), two = draw(scene, settings({}), 90, 60);
+  EXPECT_EQ(one.irradiance, two.irradiance);
 }
 
 }  // namespace

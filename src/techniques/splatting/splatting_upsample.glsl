@@ -5,7 +5,7 @@
 // ones: bilinear weights over those that do. What is not lit does not count, and what no coarser texel covers stays empty, so every
 // value lies between its sources whatever the levels of neighbours.
 //
-// The A of a result: 0 empty, else 1 + bits of the eight neighbours whose surface goes on where this texel's ends (beyond the
+// The A of a result: 0 empty, else plus, or minus where finer texels have the light of this place and only neighbours ask, 1 + bits of the eight neighbours whose surface goes on where this texel's ends (beyond the
 // paper, which mixes across an edge that runs along borders of texels).
 #ifndef GLOAM_SPLATTING_UPSAMPLE_GLSL
 #define GLOAM_SPLATTING_UPSAMPLE_GLSL
@@ -28,7 +28,7 @@ vec4 fromCoarser(sampler2D coarse, ivec2 at) {
   for (int i = 0; i < 3; ++i) {
     ivec2 next = parent + steps[i];
     vec4 texel = texelFetch(coarse, clamp(next, ivec2(0), last), 0);
-    bool counts = texel.a > 0.0 && (bits & neighbourBit(steps[i])) != 0u && next == clamp(next, ivec2(0), last);
+    bool counts = texel.a != 0.0 && (bits & neighbourBit(steps[i])) != 0u && next == clamp(next, ivec2(0), last);
     sum += vec4(texel.rgb, 1.0) * (counts ? (i == 2 ? 1.0 : 3.0) : 0.0);
   }
   return own.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
