@@ -125,8 +125,8 @@ int benchReferencePaths(const BenchChoice& choice, Console& console) {
         fmt::format("{}, {}: {} triangles, {} points, {} samples, {:.3g} rays a round, {} rounds, all cores",
                     choice.scene.name, size, countText(result.triangles), countText(result.points),
                     result.samples, double(result.rays), result.rounds));
-    console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
-    console.print(fmt::format("paths           {:8.2f} Mrays/s", result.paths_mrays_s));
+    console.print(fmt::format("Embree alone    {:8.2f} Mrays/s a core", result.bare_mrays_s));
+    console.print(fmt::format("paths           {:8.2f} Mrays/s a core", result.paths_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", result.ratio));
     return kDone;
   }

@@ -112,10 +112,9 @@ void EnvironmentSampler::fillTexels(const std::vector<glm::vec4>& texels) {
   }
 }
 
-void EnvironmentSampler::at(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
-                            SkyLight& light) const {
-  lightAt(sky_, places, mask, light);
-  if (projection_.order == 0) return;
+void EnvironmentSampler::radiance(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
+                                  LaneVectors& light) const {
+  if (projection_.order == 0) return radianceOf(sky_, places, mask, light);
   constexpr std::size_t kMost = std::size_t(sh::kMaxOrder) * std::size_t(sh::kMaxOrder);
   std::array<float, kMost * kLanes> basis;
   sh::evaluateMany(projection_.order, directions.x.at, directions.y.at, directions.z.at, basis, kLanes);
@@ -123,7 +122,7 @@ void EnvironmentSampler::at(const SkyPlaces& places, const LaneVectors& directio
     glm::vec3 sum(0.0f);
     for (int k = 0; k < projection_.order * projection_.order; ++k)
       sum += projection_[k] * basis[std::size_t(k) * kLanes + std::size_t(i)];
-    light.radiance.set(i, sum);
+    light.set(i, sum);
   }
 }
 

@@ -35,12 +35,13 @@ class EnvironmentSampler {
               LaneVectors& directions) const {
     chooseIn(sky_, scramble, numbers, places, directions);
   }
-  /// Sends for the light of those lanes, a bit each: at() is better asked some time later.
-  void sendFor(const SkyPlaces& places, std::uint32_t mask) const {
-    if (projection_.order == 0) reference::sendFor(sky_, places, mask);
+  /// Sends for the light of a lane: radiance() is better asked some time later.
+  void sendFor(const SkyPlaces& places, int lane) const {
+    if (projection_.order == 0) reference::sendFor(sky_, places, lane);
   }
-  /// Light of those lanes.
-  void at(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask, SkyLight& light) const;
+  /// Out of those lanes' directions, a bit each.
+  void radiance(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
+                LaneVectors& light) const;
 
  private:
   void fillPixels(const Environment& environment);

@@ -71,6 +71,16 @@ TEST(EnvironmentSampler, DensityIntegratesToOne) {
   EXPECT_NEAR(integral([&](const glm::vec3& d) { return glm::vec3(projected.from(d).pdf); }).x, 1.0, 2e-3);
 }
 
+struct SkyLight {
+  LaneVectors radiance;
+  LaneFloats pdf;
+  SkyLight() = default;
+  SkyLight(const EnvironmentSampler& sampler, const SkyPlaces& places, const LaneVectors& directions) {
+    densitiesOf(places, pdf);
+    sampler.radiance(places, directions, 0xffffu, radiance);
+  }
+};
+
 /// Sixteen samples of a sequence.
 struct Drawn {
   LaneVectors directions;
@@ -80,7 +90,7 @@ struct Drawn {
     SkyPlaces chosen;
     for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
     sampler.choose(Sampler(9, 1, 0).scramble(0), places, chosen, directions);
-    sampler.at(chosen, directions, 0xffffu, light);
+    light = SkyLight(sampler, chosen, directions);
   }
 };
 
@@ -126,9 +136,8 @@ void compareLanesWithOne() {
         directions.set(3, {0.0f, 1.0f, 0.0f});
         directions.set(5, {0.0f, -1.0f, 0.0f});
         SkyPlaces places;
-        SkyLight light;
         sampler.find(directions, places);
-        sampler.at(places, directions, 0xffffu, light);
+        const SkyLight light(sampler, places, directions);
         for (int i = 0; i < kLanes; ++i) {
           const EnvironmentSampler::Light want = sampler.from(directions.get(i));
           EXPECT_NEAR(light.pdf.at[i], want.pdf, 1e-3f * want.pdf + 1e-5f);

@@ -90,10 +90,14 @@ void Integrator::Impl::setMaterial(CameraPoint& point) const {
   Surfaces::Arrivals arrivals{};
   for (int i = 0; i < side * side; ++i) {
     const glm::vec2 place = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
+    const glm::vec2 shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
     lanes.to_view.set(i, point.to_eye);
-    surfaces.arrive(lanes, arrivals, i, hit, point.uv_per_x * place.x + point.uv_per_y * place.y);
+    surfaces.arrive(arrivals, i, hit);
+    arrivals.shift_u.at[i] = shift.x;
+    arrivals.shift_v.at[i] = shift.y;
   }
-  surfaces.setVertices(lanes, arrivals);
+  arrivals.shifted = side > 1;
+  surfaces.setVertices(lanes, arrivals, (1u << (side * side)) - 1u);
   glm::vec3 albedo(0.0f), normal(0.0f);
   for (int i = 0; i < side * side; ++i) {
     albedo += lanes.diffuse.get(i);

@@ -33,6 +33,11 @@ struct LaneVectors {
   bool isZero(int lane) const { return x.at[lane] == 0.0f && y.at[lane] == 0.0f && z.at[lane] == 0.0f; }
 };
 
+/// Four floats a lane, written lane by lane and read by columns.
+struct alignas(64) LaneRows {
+  float at[kLanes][4] = {};
+};
+
 /// Sampler::numbers of one pair for samples given by Sampler::place.
 void numbersOfLanes(const Sampler::Scramble& scramble, const LaneBits& places, LaneBits& x, LaneBits& y);
 

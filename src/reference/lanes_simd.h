@@ -55,6 +55,16 @@ HWY_INLINE void store(VI v, LaneInts& to, std::size_t i) {
   hn::Store(v, DI(), to.at + i);
 }
 
+/// Columns of rows of four floats a lane.
+struct Columns {
+  V a, b, c, d;
+};
+HWY_INLINE Columns columns(const float (*rows)[4], std::size_t i) {
+  Columns v;
+  hn::LoadInterleaved4(D(), rows[i], v.a, v.b, v.c, v.d);
+  return v;
+}
+
 // ---- Vectors of three -----------------------------------------------------------------------------------------------
 
 struct V3 {
@@ -106,6 +116,12 @@ HWY_INLINE std::uint32_t bitsOf(M mask, std::size_t i) {
   std::uint32_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits << i;
+}
+/// Lanes of a mask given by bits, from bit i on.
+HWY_INLINE M maskOf(std::uint32_t bits, std::size_t i) {
+  const DU du;
+  const VU one_each = hn::Shl(hn::Set(du, 1u), hn::Iota(du, std::uint32_t(i)));
+  return hn::RebindMask(D(), hn::Ne(hn::And(hn::Set(du, bits), one_each), hn::Zero(du)));
 }
 HWY_INLINE V mix(V a, V b, V t) {
   return hn::MulAdd(hn::Sub(b, a), t, a);

@@ -9,9 +9,8 @@
 #define HWY_TARGET_INCLUDE "reference/material_lanes_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include <hwy/cache_control.h>
 // clang-format on
-#include <bit>
+#include <cstring>
 
 #include "math/brdf.h"
 #include "reference/lanes_simd.h"
@@ -21,12 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace gloam::reference {
 namespace HWY_NAMESPACE {
 
-// Lanes of a mask given by bits, from bit i on.
-HWY_INLINE M maskOf(std::uint32_t bits, std::size_t i) {
-  const DU du;
-  const VU one_each = hn::Shl(hn::Set(du, 1u), hn::Iota(du, std::uint32_t(i)));
-  return hn::RebindMask(D(), hn::Ne(hn::And(hn::Set(du, bits), one_each), hn::Zero(du)));
-}
 HWY_INLINE void storeIn(M mask, const V3& v, LaneVectors& to, std::size_t i) {
   store(choose(mask, v, load(to, i)), to, i);
 }
@@ -37,82 +30,101 @@ struct Texels {
   VI first, second;
   V rest;  // how far from the first to the second
 };
+// Which lanes wrap how.
+struct Wraps {
+  M clamped, mirrored;
+  bool any;  // of the two
+};
+HWY_INLINE Wraps wrapsOf(V wrap) {
+  const M clamped = hn::Eq(wrap, all(float(Wrap::kClampToEdge))),
+          mirrored = hn::Eq(wrap, all(float(Wrap::kMirroredRepeat)));
+  return {clamped, mirrored, !hn::AllFalse(D(), hn::Or(clamped, mirrored))};
+}
 
-HWY_INLINE VI wrapped(VI texel, Wrap wrap, int size) {
+HWY_INLINE VI wrapped(VI texel, const Wraps& wraps, VI size) {
   const DI di;
-  const VI none = hn::Zero(di), all_of = hn::Set(di, size), last = hn::Set(di, size - 1);
-  if (wrap == Wrap::kClampToEdge) return hn::Min(hn::Max(texel, none), last);
-  const VI period = wrap == Wrap::kRepeat ? all_of : hn::Add(all_of, all_of);
+  const VI none = hn::Zero(di), last = hn::Sub(size, hn::Set(di, 1));
+  VI period = size;
+  if (wraps.any) period = hn::IfThenElse(hn::RebindMask(di, wraps.mirrored), hn::Add(size, size), size);
   VI in_period = hn::Add(texel, hn::IfThenElseZero(hn::Lt(texel, none), period));
   in_period =
       hn::Sub(in_period, hn::IfThenElseZero(hn::Gt(in_period, hn::Sub(period, hn::Set(di, 1))), period));
-  if (wrap == Wrap::kRepeat) return in_period;
-  return hn::Min(in_period, hn::Sub(hn::Add(last, all_of), in_period));
+  if (!wraps.any) return in_period;
+  // Only those that are mirrored reach the second half of a period.
+  in_period = hn::Min(in_period, hn::Sub(hn::Add(last, size), in_period));
+  return hn::IfThenElse(hn::RebindMask(di, wraps.clamped), hn::Min(hn::Max(texel, none), last), in_period);
 }
 
-HWY_INLINE Texels texelsAt(const TextureTable::Axis& axis, bool nearest, V given) {
+HWY_INLINE Texels texelsAt(V given, V size, V wrap, V nearest) {
+  const Wraps wraps = wrapsOf(wrap);
   const V coordinate = hn::IfThenElseZero(hn::Lt(hn::Abs(given), all(0x1p30f)), given);
-  V in_period;
-  if (axis.wrap == Wrap::kRepeat) {
-    in_period = hn::Sub(coordinate, hn::Floor(coordinate));
-  } else if (axis.wrap == Wrap::kMirroredRepeat) {
-    in_period = hn::NegMulAdd(all(2.0f), hn::Floor(hn::Mul(coordinate, all(0.5f))), coordinate);
-  } else {
-    in_period = hn::Min(hn::Max(coordinate, all(-1.0f)), all(2.0f));
+  V in_period = hn::Sub(coordinate, hn::Floor(coordinate));
+  if (wraps.any) {
+    const V mirrored = hn::NegMulAdd(all(2.0f), hn::Floor(hn::Mul(coordinate, all(0.5f))), coordinate);
+    in_period = hn::IfThenElse(wraps.mirrored, mirrored, in_period);
+    in_period = hn::IfThenElse(wraps.clamped, hn::Min(hn::Max(coordinate, all(-1.0f)), all(2.0f)), in_period);
   }
-  const V place = hn::Sub(hn::Mul(in_period, all(float(axis.size))), all(nearest ? 0.0f : 0.5f));
+  const V place = hn::MulAdd(in_period, size, hn::MulSub(all(0.5f), nearest, all(0.5f)));
   const V before = hn::Floor(place);
-  const VI first = toInt(before), second = hn::Add(first, hn::Set(DI(), 1));
-  return {wrapped(first, axis.wrap, axis.size), wrapped(second, axis.wrap, axis.size),
-          hn::Sub(place, before)};
+  const VI first = toInt(before), texels = toInt(size);
+  return {wrapped(first, wraps, texels), wrapped(hn::Add(first, hn::Set(DI(), 1)), wraps, texels),
+          hn::Mul(hn::Sub(place, before), hn::Sub(all(1.0f), nearest))};
+}
+
+void findKernel(const TextureLanes& textures, std::uint32_t mask, const LaneFloats& u, const LaneFloats& v,
+                TexelLanes& texels) {
+  const hn::CappedTag<float, 4> four;
+  LaneRows rows[3];
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    const float* from = textures[i]->placement.across_from_uv;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+      hn::StoreU(hn::LoadU(four, from + k), four, rows[0].at[i] + k);
+      hn::StoreU(hn::LoadU(four, from + 4 + k), four, rows[1].at[i] + k);
+      hn::StoreU(hn::LoadU(four, from + 8 + k), four, rows[2].at[i] + k);
+    }
+  }
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
+    const Columns x = columns(rows[0].at, i), y = columns(rows[1].at, i), how = columns(rows[2].at, i);
+    const V s = load(u, i), t = load(v, i);
+    const Texels across = texelsAt(hn::MulAdd(x.a, s, hn::MulAdd(x.b, t, x.c)), x.d, how.a, how.c),
+                 down = texelsAt(hn::MulAdd(y.a, s, hn::MulAdd(y.b, t, y.c)), y.d, how.b, how.c);
+    const VI width = toInt(x.d), upper = hn::Mul(down.first, width), lower = hn::Mul(down.second, width);
+    store(hn::Add(upper, across.first), texels.corners[0], i);
+    store(hn::Add(upper, across.second), texels.corners[1], i);
+    store(hn::Add(lower, across.first), texels.corners[2], i);
+    store(hn::Add(lower, across.second), texels.corners[3], i);
+    store(across.rest, texels.across, i);
+    store(down.rest, texels.down, i);
+  }
 }
 
 template <int kShift>
-HWY_INLINE V channel(const TextureTable& texture, VU texel) {
+HWY_INLINE V channel(const float* linear, VU texel) {
   const VI byte = hn::BitCast(DI(), hn::And(hn::ShiftRight<kShift>(texel), allBits(0xffu)));
-  return texture.srgb ? hn::GatherIndex(D(), texture.linear, byte)
-                      : hn::Mul(toFloat(byte), all(1.0f / 255.0f));
+  return linear ? hn::GatherIndex(D(), linear, byte) : hn::Mul(toFloat(byte), all(1.0f / 255.0f));
+}
+HWY_INLINE V3 decoded(const float* linear, VU texel) {
+  return {channel<0>(linear, texel), channel<8>(linear, texel), channel<16>(linear, texel)};
 }
 
-HWY_INLINE V3 texelAt(const TextureTable& texture, VI row, VI column) {
-  const VU texel = hn::GatherIndex(DU(), reinterpret_cast<const std::uint32_t*>(texture.texels),
-                                   hn::Add(hn::Mul(row, hn::Set(DI(), texture.across.size)), column));
-  return {channel<0>(texture, texel), channel<8>(texture, texel), channel<16>(texture, texel)};
-}
-
-struct Corners {
-  Texels across, down;
-};
-HWY_INLINE Corners cornersAt(const TextureTable& texture, V s, V t) {
-  const V x =
-      hn::MulAdd(all(texture.from_u.x), s, hn::MulAdd(all(texture.from_v.x), t, all(texture.shift.x)));
-  const V y =
-      hn::MulAdd(all(texture.from_u.y), s, hn::MulAdd(all(texture.from_v.y), t, all(texture.shift.y)));
-  return {texelsAt(texture.across, texture.nearest, x), texelsAt(texture.down, texture.nearest, y)};
-}
-
-void offsetsKernel(const TextureTable& texture, const LaneFloats& u, const LaneFloats& v, LaneInts& upper,
-                   LaneInts& lower) {
-  const VI width = hn::Set(DI(), texture.across.size);
-  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const Corners at = cornersAt(texture, load(u, i), load(v, i));
-    store(hn::Add(hn::Mul(at.down.first, width), at.across.first), upper, i);
-    store(hn::Add(hn::Mul(at.down.second, width), at.across.first), lower, i);
-  }
-}
-
-void textureKernel(const TextureTable& texture, const LaneFloats& u, const LaneFloats& v,
+void textureKernel(const TextureLanes& textures, std::uint32_t mask, const TexelLanes& texels, bool srgb,
                    LaneVectors& color) {
+  LaneBits corners[4] = {};
+  const float* linear = nullptr;
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    if (srgb) linear = textures[i]->linear;  // one table for all
+    for (int c = 0; c < 4; ++c)
+      std::memcpy(&corners[c].at[i], textures[i]->texels + std::size_t(texels.corners[c].at[i]) * 4, 4);
+  }
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const auto [across, down] = cornersAt(texture, load(u, i), load(v, i));
-    V3 result = texelAt(texture, down.first, across.first);
-    if (!texture.nearest) {
-      result = mulAdd(sub(texelAt(texture, down.first, across.second), result), across.rest, result);
-      V3 below = texelAt(texture, down.second, across.first);
-      below = mulAdd(sub(texelAt(texture, down.second, across.second), below), across.rest, below);
-      result = mulAdd(sub(below, result), down.rest, result);
-    }
-    store(result, color, i);
+    const M here = maskOf(mask, i);
+    V3 upper = decoded(linear, load(corners[0], i)), lower = decoded(linear, load(corners[2], i));
+    const V across = load(texels.across, i), one = all(1.0f);
+    upper = mulAdd(sub(decoded(linear, load(corners[1], i)), upper), across, upper);
+    lower = mulAdd(sub(decoded(linear, load(corners[3], i)), lower), across, lower);
+    store(choose(here, mulAdd(sub(lower, upper), load(texels.down, i), upper), V3{one, one, one}), color, i);
   }
 }
 
@@ -122,17 +134,33 @@ HWY_INLINE V luminance(const V3& c) {
   return hn::MulAdd(all(0.2126f), c.x, hn::MulAdd(all(0.7152f), c.y, hn::Mul(all(0.0722f), c.z)));
 }
 
+// Two rows of four.
+void gatherFactors(const MaterialFactors* const* factors, std::uint32_t mask, LaneRows& low, LaneRows& high) {
+  const hn::CappedTag<float, 4> four;
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    const float* from = &factors[i]->base_color.x;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+      hn::StoreU(hn::LoadU(four, from + k), four, low.at[i] + k);
+      hn::StoreU(hn::LoadU(four, from + 4 + k), four, high.at[i] + k);
+    }
+  }
+}
+
 void makeKernel(PathLanes& lanes, std::uint32_t mask, const MaterialLanes& material) {
   const V one = all(1.0f);
+  LaneRows low, high;
+  gatherFactors(material.factors, mask, low, high);
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const M here = maskOf(mask, i);
     if (hn::AllFalse(D(), here)) continue;
-    const V3 given = mul(load(material.color, i), all(material.base_color));
+    const Columns base = columns(low.at, i), rest = columns(high.at, i);
+    const V3 given = mul(load(material.color, i), V3{base.a, base.b, base.c});
     const V3 color{clampUnit(given.x), clampUnit(given.y), clampUnit(given.z)};
-    const V metallic = clampUnit(hn::Mul(load(material.metallic_roughness.z, i), all(material.metallic)));
-    const V roughness = clampUnit(hn::Mul(load(material.metallic_roughness.y, i), all(material.roughness)));
+    const V metallic = clampUnit(hn::Mul(load(material.metallic_roughness.z, i), base.d));
+    const V roughness = clampUnit(hn::Mul(load(material.metallic_roughness.y, i), rest.a));
     const V3 diffuse = mul(color, hn::Sub(one, metallic));
-    const V plain = all(0.04f * material.specular);
+    const V plain = hn::Mul(all(0.04f), rest.b);
     const V3 specular{mix(plain, color.x, metallic), mix(plain, color.y, metallic),
                       mix(plain, color.z, metallic)};
     const V alpha = hn::Mul(roughness, roughness);
@@ -152,23 +180,39 @@ HWY_INLINE V3 cross(const V3& a, const V3& b) {
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-void tiltKernel(PathLanes& lanes, std::uint32_t mask, const CornerLanes& corners, const TangentLanes& map) {
+void gatherTangents(const TangentLanes& map, std::uint32_t mask, LaneRows& tangents, LaneFloats& scales) {
+  const hn::CappedTag<float, 4> four;
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    const float *p = &map.corners[i][0]->x, *q = &map.corners[i][1]->x, *r = &map.corners[i][2]->x;
+    const float u = map.u.at[i], v = map.v.at[i];
+    scales.at[i] = map.factors[i]->normal_scale;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+      const auto rest_of_them = hn::MulAdd(hn::LoadU(four, q + k), hn::Set(four, u),
+                                           hn::Mul(hn::LoadU(four, r + k), hn::Set(four, v)));
+      hn::StoreU(hn::MulAdd(hn::LoadU(four, p + k), hn::Set(four, 1.0f - u - v), rest_of_them), four,
+                 tangents.at[i] + k);
+    }
+  }
+}
+
+void tiltKernel(PathLanes& lanes, std::uint32_t mask, const TangentLanes& map) {
   const V one = all(1.0f), two = all(2.0f);
+  LaneRows tangents;
+  LaneFloats scales = {};
+  gatherTangents(map, mask, tangents, scales);
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const M here = maskOf(mask, i);
     if (hn::AllFalse(D(), here)) continue;
-    const V u = load(corners.u, i), v = load(corners.v, i), w = hn::Sub(hn::Sub(one, u), v);
-    const V3 smooth = mulAdd(load(corners.normals[0], i), w,
-                             mulAdd(load(corners.normals[1], i), u, mul(load(corners.normals[2], i), v)));
-    const V3 seen = load(lanes.normal, i);
-    const V side = hn::IfThenElse(hn::Lt(dot(smooth, seen), zero()), all(-1.0f), one);
-    const V3 normal = mul(seen, side), given = load(map.tangent, i);
+    const Columns from = columns(tangents.at, i);
+    const V side = load(map.side, i);
+    const V3 normal = mul(load(lanes.normal, i), side), given{from.a, from.b, from.c};
     const V3 along = mulAdd(normal, hn::Neg(dot(normal, given)), given);
     const V squared = dot(along, along);
     const V3 tangent = mul(along, hn::Div(one, hn::Sqrt(squared)));
-    const V hand = hn::IfThenElse(hn::Lt(load(map.handedness, i), zero()), all(-1.0f), one);
+    const V hand = hn::IfThenElse(hn::Lt(from.d, zero()), all(-1.0f), one);
     const V3 texel = load(map.texel, i);
-    const V scale = all(map.scale), x = hn::Mul(hn::MulAdd(texel.x, two, all(-1.0f)), scale),
+    const V scale = load(scales, i), x = hn::Mul(hn::MulAdd(texel.x, two, all(-1.0f)), scale),
             y = hn::Mul(hn::MulAdd(texel.y, two, all(-1.0f)), hn::Mul(scale, hand));
     const V3 tilted = mulAdd(
         tangent, x, mulAdd(cross(normal, tangent), y, mul(normal, hn::MulAdd(texel.z, two, all(-1.0f)))));
@@ -185,29 +229,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gloam::reference {
 
+HWY_EXPORT(findKernel);
 HWY_EXPORT(textureKernel);
-HWY_EXPORT(offsetsKernel);
 HWY_EXPORT(makeKernel);
 HWY_EXPORT(tiltKernel);
 
-void readTexture(const TextureTable& texture, const LaneFloats& u, const LaneFloats& v, LaneVectors& color) {
-  HWY_DYNAMIC_DISPATCH(textureKernel)(texture, u, v, color);
+void findTexels(const TextureLanes& textures, std::uint32_t mask, const LaneFloats& u, const LaneFloats& v,
+                TexelLanes& texels) {
+  HWY_DYNAMIC_DISPATCH(findKernel)(textures, mask, u, v, texels);
 }
-void sendForTexture(const TextureTable& texture, const LaneFloats& u, const LaneFloats& v,
-                    std::uint32_t mask) {
-  LaneInts upper, lower;
-  HWY_DYNAMIC_DISPATCH(offsetsKernel)(texture, u, v, upper, lower);
-  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    hwy::Prefetch(texture.texels + std::size_t(upper.at[i]) * 4);
-    hwy::Prefetch(texture.texels + std::size_t(lower.at[i]) * 4);
-  }
+void readTexels(const TextureLanes& textures, std::uint32_t mask, const TexelLanes& texels, bool srgb,
+                LaneVectors& color) {
+  HWY_DYNAMIC_DISPATCH(textureKernel)(textures, mask, texels, srgb, color);
 }
 void setLobes(PathLanes& lanes, std::uint32_t mask, const MaterialLanes& material) {
   HWY_DYNAMIC_DISPATCH(makeKernel)(lanes, mask, material);
 }
-void tiltNormals(PathLanes& lanes, std::uint32_t mask, const CornerLanes& corners, const TangentLanes& map) {
-  HWY_DYNAMIC_DISPATCH(tiltKernel)(lanes, mask, corners, map);
+void tiltNormals(PathLanes& lanes, std::uint32_t mask, const TangentLanes& map) {
+  HWY_DYNAMIC_DISPATCH(tiltKernel)(lanes, mask, map);
 }
 
 }  // namespace gloam::reference

@@ -9,6 +9,7 @@
 
 #include "reference/lamps.h"
 #include "reference/lanes.h"
+#include "trace/rays.h"
 
 namespace gloam::reference {
 
@@ -32,17 +33,34 @@ struct PathLanes {
   bool glossy;          ///< some lane has a Phong lobe
 };
 
-/// Where rays meet triangles: corners, their normals in the world, the place between them.
-struct CornerLanes {
-  LaneVectors positions[3], normals[3];
-  LaneFloats u, v;
-  LaneVectors face;  ///< Hit::geometric_normal
+/// What paths need of a corner of a triangle, in the world; comes from memory in one piece.
+struct alignas(32) WorldVertex {
+  glm::vec3 position, normal;
+  glm::vec2 uv{0.0f};
 };
-/// All lanes become copies of the first, but for `place` and `slot`.
-void spreadFirstLane(PathLanes& lanes, CornerLanes& corners);
-/// Sets position, origin and both normals, by the rule of sides (frame/README.md); from to_view. The shading normal is not
-/// yet tilted.
-void setVertices(PathLanes& lanes, const CornerLanes& corners);
+/// Where rays have met triangles: only where to find what is there, so that all of it is sent for at once.
+struct MeetingLanes {
+  const WorldVertex* corners[kLanes][3];
+  const float* lobes[kLanes];  ///< diffuse, specular, exponent, specular_share
+  LaneFloats u;
+  /// v; Hit::geometric_normal.
+  alignas(64) float v_and_face[kLanes][4];
+  void set(int lane, const trace::Hit& hit) {
+    u.at[lane] = hit.u;
+    v_and_face[lane][0] = hit.v;
+    for (int i = 0; i < 3; ++i) v_and_face[lane][i + 1] = hit.geometric_normal[i];
+  }
+};
+/// What else is known there.
+struct PlaceLanes {
+  LaneFloats u, v;  ///< WorldVertex::uv
+  LaneFloats side;  ///< -1: seen from the side on which the mesh's normals are not
+};
+/// Sets position, origin, lobes and both normals of those lanes (a bit each), by the rule of sides (frame/README.md); from
+/// to_view. The shading normal is not yet tilted.
+void setVertices(PathLanes& lanes, const MeetingLanes& meetings, std::uint32_t mask, PlaceLanes& places);
+/// Those lanes take their steps and move up to the front: `step` becomes throughput, and they look back.
+void takeSteps(PathLanes& lanes, std::uint32_t mask);
 /// Sets mirror, once the normals stand.
 void setMirrors(PathLanes& lanes);
 
@@ -61,13 +79,11 @@ struct LightLanes {
 };
 /// Bit i: lane i's direction lies above its surface.
 std::uint32_t lanesAbove(const PathLanes& lanes, const LaneVectors& directions);
-/// Light from afar: `direction` is set, `radiance` comes with density `pdf`. `both`: joined with the lobes' by the power
-/// heuristic (Veach 1997).
-void lightFromSky(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
-                  LightLanes& light);
-/// Light that steps find in the sky: `light` is 0 where there is none.
-void lightOfSteps(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
-                  LaneVectors& light);
+/// Light from afar: `direction` is set and has density `pdf`. `both`: joined with the lobes' by the power heuristic (Veach
+/// 1997). `light` becomes that of a radiance of 1.
+void lightFromSky(const PathLanes& lanes, const LaneFloats& pdf, bool both, LightLanes& light);
+/// Light that steps find in a sky of radiance 1: 0 where there is none.
+void lightOfSteps(const PathLanes& lanes, const LaneFloats& pdf, bool both, LaneVectors& light);
 /// Points on triangles that shine.
 struct EmitterLanes {
   LaneVectors position, normal, radiance;

@@ -32,57 +32,82 @@ void numbersKernel(const Sampler::Scramble& scramble, const LaneBits& places, La
 
 // ---- Vertices -------------------------------------------------------------------------------------------------------
 
-HWY_INLINE V3 between(const LaneVectors* corners, V u, V v, std::size_t i) {
-  const V w = hn::Sub(hn::Sub(all(1.0f), u), v);
-  return mulAdd(load(corners[0], i), w, mulAdd(load(corners[1], i), u, mul(load(corners[2], i), v)));
+struct Gathered {
+  LaneRows low, high, reach, lobes_low, lobes_high;
+};
+
+// Eight floats of each corner are mixed lane by lane: that no lane waits for another's memory.
+HWY_INLINE void gatherVertices(const MeetingLanes& meetings, std::uint32_t mask, Gathered& to) {
+  const hn::CappedTag<float, 4> four;
+  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+    const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+    const float *p = &meetings.corners[i][0]->position.x, *q = &meetings.corners[i][1]->position.x,
+                *r = &meetings.corners[i][2]->position.x, *lobes = meetings.lobes[i];
+    const float u = meetings.u.at[i], v = meetings.v_and_face[i][0];
+    const auto of_p = hn::Set(four, 1.0f - u - v), of_q = hn::Set(four, u), of_r = hn::Set(four, v);
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+      const auto a = hn::LoadU(four, p + k), b = hn::LoadU(four, q + k), c = hn::LoadU(four, r + k);
+      hn::StoreU(hn::MulAdd(a, of_p, hn::MulAdd(b, of_q, hn::Mul(c, of_r))), four, to.low.at[i] + k);
+      hn::StoreU(hn::Max(hn::Max(hn::Abs(a), hn::Abs(b)), hn::Abs(c)), four, to.reach.at[i] + k);
+      const auto d = hn::LoadU(four, p + k + 4), e = hn::LoadU(four, q + k + 4),
+                 f = hn::LoadU(four, r + k + 4);
+      hn::StoreU(hn::MulAdd(d, of_p, hn::MulAdd(e, of_q, hn::Mul(f, of_r))), four, to.high.at[i] + k);
+      hn::StoreU(hn::LoadU(four, lobes + k), four, to.lobes_low.at[i] + k);
+      hn::StoreU(hn::LoadU(four, lobes + k + 4), four, to.lobes_high.at[i] + k);
+    }
+  }
 }
 
-HWY_INLINE V largestOf(V most, const V3& v) {
-  return hn::Max(hn::Max(most, hn::Abs(v.x)), hn::Max(hn::Abs(v.y), hn::Abs(v.z)));
-}
-
-void verticesKernel(PathLanes& lanes, const CornerLanes& corners) {
+void verticesKernel(PathLanes& lanes, const MeetingLanes& meetings, std::uint32_t mask, PlaceLanes& places) {
+  Gathered gathered;
+  gatherVertices(meetings, mask, gathered);
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const V u = load(corners.u, i), v = load(corners.v, i);
-    const V3 hit_normal = load(corners.face, i);
+    const Columns low = columns(gathered.low.at, i), high = columns(gathered.high.at, i),
+                  reach = columns(gathered.reach.at, i), hit = columns(meetings.v_and_face, i);
+    const V3 position{low.a, low.b, low.c}, smooth{low.d, high.a, high.b}, hit_normal{hit.b, hit.c, hit.d};
     const V3 face = mul(hit_normal, hn::CopySign(all(1.0f), dot(load(lanes.to_view, i), hit_normal)));
-    const V3 smooth = between(corners.normals, u, v, i);
     const V squared = dot(smooth, smooth);
     const M has_normal = hn::And(hn::Gt(squared, zero()), hn::Lt(squared, all(kEver)));
-    const V side = hn::CopySign(hn::Div(all(1.0f), hn::Sqrt(squared)), dot(smooth, face));
-    const V3 normal = choose(has_normal, mul(smooth, side), face);
-    const V3 position = between(corners.positions, u, v, i);
-    V most = zero();  // trace::surfaceOffset
-    for (const LaneVectors& corner : corners.positions) most = largestOf(most, load(corner, i));
+    const V side = hn::CopySign(all(1.0f), dot(smooth, face));
+    const V3 normal = choose(has_normal, mul(smooth, hn::Div(side, hn::Sqrt(squared))), face);
+    const V most = hn::Max(hn::Max(reach.a, reach.b), reach.c);  // trace::surfaceOffset
     store(face, lanes.geometric_normal, i);
     store(normal, lanes.normal, i);
     store(position, lanes.position, i);
     store(mulAdd(face, hn::Mul(most, all(0x1p-18f)), position), lanes.origin, i);
+    store(high.c, places.u, i);
+    store(high.d, places.v, i);
+    store(hn::IfThenElse(has_normal, side, all(1.0f)), places.side, i);
+    const Columns lobes = columns(gathered.lobes_low.at, i), others = columns(gathered.lobes_high.at, i);
+    store(V3{lobes.a, lobes.b, lobes.c}, lanes.diffuse, i);
+    store(V3{lobes.d, others.a, others.b}, lanes.specular, i);
+    store(others.c, lanes.exponent, i);
+    store(others.d, lanes.specular_share, i);
   }
 }
 
-HWY_INLINE void spread(LaneFloats& row) {
-  const V first = all(row.at[0]);
-  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) store(first, row, i);
-}
-HWY_INLINE void spread(LaneVectors& rows) {
-  spread(rows.x);
-  spread(rows.y);
-  spread(rows.z);
+template <class Lanes>
+HWY_INLINE void moveUp(const Lanes& from, M taken, std::size_t i, Lanes& to, std::size_t left) {
+  const auto row = load(from, i);
+  const hn::DFromV<decltype(row)> d;
+  hn::StoreU(hn::Compress(row, hn::RebindMask(d, taken)), d, to.at + left);
 }
 
-void spreadKernel(PathLanes& lanes, CornerLanes& corners) {
-  for (LaneVectors* rows : {&lanes.throughput, &lanes.to_view, &lanes.diffuse, &lanes.specular})
-    spread(*rows);
-  spread(lanes.exponent);
-  spread(lanes.specular_share);
-  for (int c = 0; c < 3; ++c) {
-    spread(corners.positions[c]);
-    spread(corners.normals[c]);
+void takeKernel(PathLanes& lanes, std::uint32_t mask) {
+  const D d;
+  for (std::size_t i = 0, left = 0; i < kLanes; i += hn::Lanes(d)) {
+    const M taken = maskOf(mask, i);
+    moveUp(lanes.place, taken, i, lanes.place, left);
+    moveUp(lanes.slot, taken, i, lanes.slot, left);
+    moveUp(lanes.step.x, taken, i, lanes.throughput.x, left);
+    moveUp(lanes.step.y, taken, i, lanes.throughput.y, left);
+    moveUp(lanes.step.z, taken, i, lanes.throughput.z, left);
+    const V3 direction = load(lanes.direction, i);
+    hn::StoreU(hn::Neg(hn::Compress(direction.x, taken)), d, lanes.to_view.x.at + left);
+    hn::StoreU(hn::Neg(hn::Compress(direction.y, taken)), d, lanes.to_view.y.at + left);
+    hn::StoreU(hn::Neg(hn::Compress(direction.z, taken)), d, lanes.to_view.z.at + left);
+    left += hn::CountTrue(d, taken);
   }
-  spread(corners.u);
-  spread(corners.v);
-  spread(corners.face);
 }
 
 void mirrorsKernel(PathLanes& lanes) {
@@ -185,8 +210,7 @@ HWY_INLINE std::uint32_t storeLight(M wanted, const V3& given, LaneVectors& ligh
   return bitsOf(notBlack(kept), i);
 }
 
-void skyKernel(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
-               LightLanes& light) {
+void skyKernel(const PathLanes& lanes, const LaneFloats& pdf, bool both, LightLanes& light) {
   light.wanted = 0;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const V3 direction = load(light.direction, i);
@@ -195,18 +219,18 @@ void skyKernel(const PathLanes& lanes, const LaneVectors& radiance, const LaneFl
     if (hn::AllFalse(D(), wanted)) continue;
     const Lobes lobes = lobesAt(lanes, direction, i);
     const V share = hn::Div(weight(sky_pdf, lobes.pdf, all(both ? 1.0f : 0.0f)), sky_pdf);
-    const V3 sum = mul(mul(load(lanes.throughput, i), lobes.value), mul(load(radiance, i), share));
     store(all(kEver), light.t_far, i);
-    light.wanted |= storeLight(wanted, sum, light.light, i);
+    light.wanted |=
+        storeLight(wanted, mul(mul(load(lanes.throughput, i), lobes.value), share), light.light, i);
   }
 }
 
-void skyStepsKernel(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& sky_pdf, bool both,
-                    LaneVectors& light) {
+void skyStepsKernel(const PathLanes& lanes, const LaneFloats& sky_pdf, bool both, LaneVectors& light) {
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const V pdf = load(lanes.pdf, i);
-    const V share = weight(pdf, load(sky_pdf, i), all(both ? 1.0f : 0.0f));
-    storeLight(hn::Gt(pdf, zero()), mul(mul(load(lanes.step, i), load(radiance, i)), share), light, i);
+    const V pdf = load(lanes.pdf, i), of_sky = load(sky_pdf, i);
+    const M there = hn::And(hn::Gt(pdf, zero()), hn::Gt(of_sky, zero()));  // no light where it has no density
+    const V share = weight(pdf, of_sky, all(both ? 1.0f : 0.0f));
+    storeLight(there, mul(load(lanes.step, i), share), light, i);
   }
 }
 
@@ -356,7 +380,7 @@ namespace gloam::reference {
 
 HWY_EXPORT(numbersKernel);
 HWY_EXPORT(verticesKernel);
-HWY_EXPORT(spreadKernel);
+HWY_EXPORT(takeKernel);
 HWY_EXPORT(mirrorsKernel);
 HWY_EXPORT(lobesKernel);
 HWY_EXPORT(stepsKernel);
@@ -371,11 +395,11 @@ HWY_EXPORT(shotsKernel);
 void numbersOfLanes(const Sampler::Scramble& scramble, const LaneBits& places, LaneBits& x, LaneBits& y) {
   HWY_DYNAMIC_DISPATCH(numbersKernel)(scramble, places, x, y);
 }
-void setVertices(PathLanes& lanes, const CornerLanes& corners) {
-  HWY_DYNAMIC_DISPATCH(verticesKernel)(lanes, corners);
+void setVertices(PathLanes& lanes, const MeetingLanes& meetings, std::uint32_t mask, PlaceLanes& places) {
+  HWY_DYNAMIC_DISPATCH(verticesKernel)(lanes, meetings, mask, places);
 }
-void spreadFirstLane(PathLanes& lanes, CornerLanes& corners) {
-  HWY_DYNAMIC_DISPATCH(spreadKernel)(lanes, corners);
+void takeSteps(PathLanes& lanes, std::uint32_t mask) {
+  HWY_DYNAMIC_DISPATCH(takeKernel)(lanes, mask);
 }
 void setMirrors(PathLanes& lanes) {
   HWY_DYNAMIC_DISPATCH(mirrorsKernel)(lanes);
@@ -392,13 +416,11 @@ std::uint32_t lanesAbove(const PathLanes& lanes, const LaneVectors& directions) 
   HWY_DYNAMIC_DISPATCH(aboveKernel)(lanes, directions, bits);
   return bits;
 }
-void lightFromSky(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
-                  LightLanes& light) {
-  HWY_DYNAMIC_DISPATCH(skyKernel)(lanes, radiance, pdf, both, light);
+void lightFromSky(const PathLanes& lanes, const LaneFloats& pdf, bool both, LightLanes& light) {
+  HWY_DYNAMIC_DISPATCH(skyKernel)(lanes, pdf, both, light);
 }
-void lightOfSteps(const PathLanes& lanes, const LaneVectors& radiance, const LaneFloats& pdf, bool both,
-                  LaneVectors& light) {
-  HWY_DYNAMIC_DISPATCH(skyStepsKernel)(lanes, radiance, pdf, both, light);
+void lightOfSteps(const PathLanes& lanes, const LaneFloats& pdf, bool both, LaneVectors& light) {
+  HWY_DYNAMIC_DISPATCH(skyStepsKernel)(lanes, pdf, both, light);
 }
 void lightFromEmitters(const PathLanes& lanes, const EmitterLanes& points, bool both, LightLanes& light) {
   HWY_DYNAMIC_DISPATCH(emittersKernel)(lanes, points, both, light);

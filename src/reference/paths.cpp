@@ -54,20 +54,26 @@ void Paths::shootNear(std::span<const glm::vec3> seen) {
   if (indirect_.lamps && both_) shots_ = LampShots(lamps_, tracer_, seen);
 }
 
-// Light in the sky behind the steps.
+// The sky behind the steps.
 void Paths::findSky(Batch& batch) const {
-  environment_->at(batch.sky_by_lobes, batch.lanes.direction, batch.going(), batch.sky);
-  lightOfSteps(batch.lanes, batch.sky.radiance, batch.sky.pdf, both_, batch.step_light);
+  environment_->find(batch.lanes.direction, batch.sky_by_lobes);
+  LaneFloats pdf;
+  densitiesOf(batch.sky_by_lobes, pdf);
+  lightOfSteps(batch.lanes, pdf, both_, batch.step_light);
 }
 
 // The last vertices under a sky alone: only whether it is free.
 void Paths::finish(Batch& batch) const {
+  std::uint32_t free = 0;
   for (int i = 0; i < batch.count; ++i) {
     if (batch.step_light.isZero(i)) continue;
     const trace::Ray ray = batch.stepOf(i);
     batch.record(ray, true);
-    if (!tracer_.occluded(ray)) batch.add(i, kEnvironmentDirect, batch.step_light.get(i));
+    if (tracer_.occluded(ray)) continue;
+    free |= 1u << i;
+    environment_->sendFor(batch.sky_by_lobes, i);
   }
+  addSky(batch, batch.sky_by_lobes, batch.lanes.direction, free, batch.step_light);
 }
 
 void Paths::addEmission(Batch& batch, int lane, const trace::Hit& hit) const {
@@ -82,6 +88,7 @@ void Paths::addEmission(Batch& batch, int lane, const trace::Hit& hit) const {
 void Paths::traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const {
   const bool to_sky = batch.sources.environment && sample_lobes_;
   const trace::Hit* before = nullptr;  // whose vertices can be sent for while the next ray is traced
+  std::uint32_t free = 0;
   for (std::uint32_t rest = batch.going(); rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
     const trace::Ray ray = batch.stepOf(i);
@@ -90,19 +97,30 @@ void Paths::traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const {
     if (go_on && before) surfaces_.prefetchVertices(*before);
     before = nullptr;
     if (!hits[i]) {
-      if (to_sky) batch.add(i, kEnvironmentDirect, batch.step_light.get(i));
+      free |= 1u << i;
+      if (to_sky) environment_->sendFor(batch.sky_by_lobes, i);
     } else if (go_on) {
       surfaces_.prefetchCorners(hits[i]);
       before = &hits[i];
     }
   }
   if (go_on && before) surfaces_.prefetchVertices(*before);
+  if (to_sky) addSky(batch, batch.sky_by_lobes, batch.lanes.direction, free, batch.step_light);
 }
 
 // Of the step to a vertex, over area.
 float Paths::densityOf(const Batch& batch, int lane, const trace::Hit& hit) const {
   const float cosine = std::abs(glm::dot(hit.geometric_normal, batch.lanes.direction.get(lane)));
   return std::max(batch.lanes.pdf.at[lane] * cosine / (hit.distance * hit.distance), kLeastDensity);
+}
+
+// Paths end by chance, what goes on makes up for it.
+bool Paths::survives(Batch& batch, int lane, std::uint32_t number) const {
+  const glm::vec3 step = batch.lanes.step.get(lane);
+  const float chance = std::min(largest(step), kSurestRoulette);
+  if (Sampler::toUnit(number) >= chance) return false;
+  batch.lanes.step.set(lane, step / chance);
+  return true;
 }
 
 // To the next vertices; collects what shines there.
@@ -113,29 +131,23 @@ void Paths::advance(Batch& batch, bool go_on) const {
   const bool roulette = batch.depth >= kFirstRoulette;
   LaneBits unused, chances;
   if (roulette) numbersOfLanes(batch.scramble(kLampAndRoulette), lanes.place, unused, chances);
-  batch.arrivals.varied = 0;
-  batch.arrivals.glossy = false;
+  batch.arrivals.clear();
+  std::uint32_t taken = 0;
   int left = 0;
   for (int i = 0; i < batch.count; ++i) {
     if (!hits[i]) continue;
     if (batch.sources.emitters && sample_lobes_ && surfaces_.emits(hits[i].instance))
       addEmission(batch, i, hits[i]);
-    if (!go_on) continue;
-    glm::vec3 throughput = lanes.step.get(i);
-    if (roulette) {
-      const float chance = std::min(largest(throughput), kSurestRoulette);
-      if (Sampler::toUnit(chances.at[i]) >= chance) continue;
-      throughput /= chance;
-    }
-    lanes.place.at[left] = lanes.place.at[i];
-    lanes.slot.at[left] = lanes.slot.at[i];
-    lanes.throughput.set(left, throughput);
+    if (!go_on || (roulette && !survives(batch, i, chances.at[i]))) continue;
+    if (!surfaces_.arrive(batch.arrivals, left, hits[i])) continue;
     if (!shots_.empty()) lanes.found.at[left] = densityOf(batch, i, hits[i]);
-    lanes.to_view.set(left, -lanes.direction.get(i));
-    if (surfaces_.arrive(lanes, batch.arrivals, left, hits[i])) ++left;
+    taken |= 1u << i;
+    ++left;
   }
   batch.count = left;
-  if (left > 0) surfaces_.setVertices(lanes, batch.arrivals);
+  if (left == 0) return;
+  takeSteps(lanes, taken);
+  surfaces_.setVertices(lanes, batch.arrivals, batch.used());
 }
 
 void Paths::walk(Batch& batch) const {
@@ -145,23 +157,12 @@ void Paths::walk(Batch& batch) const {
     const bool sky_by_light = batch.sources.environment && sample_lights_;
     const bool sky_by_lobes = batch.sources.environment && sample_lobes_;
     const bool by_lobes = sky_by_lobes || (batch.sources.emitters && sample_lobes_);
-    // Early: what is in the sky takes its time to come from memory.
-    if (go_on || by_lobes) chooseSteps(batch.lanes, batch.scramble(kLobes));
-    if (sky_by_lobes) {
-      environment_->find(batch.lanes.direction, batch.sky_by_lobes);
-      environment_->sendFor(batch.sky_by_lobes, batch.going());
-    }
-    if (sky_by_light) {
-      environment_->choose(batch.scramble(kEnvironment), batch.lanes.place, batch.sky_by_light,
-                           batch.sky_directions);
-      batch.above = lanesAbove(batch.lanes, batch.sky_directions) & batch.used();
-      environment_->sendFor(batch.sky_by_light, batch.above);
-    }
     if (batch.sources.lamps) fromLamps(batch);
     if (sky_by_light) fromEnvironment(batch);
     if (batch.sources.emitters && sample_lights_) fromEmitters(batch);
     if (go_on && !shots_.empty()) fromShots(batch);
     if (!go_on && !by_lobes) return;
+    chooseSteps(batch.lanes, batch.scramble(kLobes));
     if (sky_by_lobes) findSky(batch);
     if (!go_on && !batch.sources.emitters) return finish(batch);
     advance(batch, go_on);
@@ -173,33 +174,34 @@ void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
   const bool textured = surfaces_.textured(point.instance), emits = surfaces_.emits(point.instance);
   const trace::Hit hit{point.instance, point.triangle, 0.0f, point.u, point.v, point.geometric_normal};
   PathLanes& lanes = batch.lanes;
+  Surfaces::Arrivals& arrivals = batch.arrivals;
   batch.light = light;
   batch.depth = batch.count = 0;
-  batch.arrivals.varied = 0;
-  batch.arrivals.glossy = false;
-  LaneBits places, x, y;
-  for (int i = 0; i < kLanes; ++i) places.at[i] = bits::reversedBits(first + std::uint32_t(i));
-  if (textured) numbersOfLanes(batch.sampler.scramble(kPixelPair), places, x, y);
-  lanes.throughput.set(0, glm::vec3(1.0f));
-  lanes.to_view.set(0, point.to_eye);
-  const bool sends = surfaces_.arrive(lanes, batch.arrivals, 0, hit);
-  Surfaces::spreadFirst(lanes, batch.arrivals);
+  arrivals.clear();
+  arrivals.shifted = textured;
+  LaneBits x, y;
+  for (int i = 0; i < kLanes; ++i) lanes.place.at[i] = bits::reversedBits(first + std::uint32_t(i));
+  if (textured) numbersOfLanes(batch.sampler.scramble(kPixelPair), lanes.place, x, y);
+  bool sends = false;
   for (int i = 0; i < int(light.size()); ++i) {
     PathLight& own = light[std::size_t(i)] = {};
-    lanes.place.at[i] = places.at[i];
     lanes.slot.at[i] = i;
     lanes.found.at[i] = std::numeric_limits<float>::infinity();
+    lanes.throughput.set(i, glm::vec3(1.0f));
+    lanes.to_view.set(i, point.to_eye);
+    sends = surfaces_.arrive(arrivals, i, hit);
     glm::vec2 shift(0.0f);
     if (textured) {
       const glm::vec2 place = glm::vec2(Sampler::toUnit(x.at[i]), Sampler::toUnit(y.at[i])) - 0.5f;
       shift = point.uv_per_x * place.x + point.uv_per_y * place.y;
+      arrivals.shift_u.at[i] = shift.x;
+      arrivals.shift_v.at[i] = shift.y;
     }
-    batch.arrivals.texture_u.at[i] = point.u + shift.x;
-    batch.arrivals.texture_v.at[i] = point.v + shift.y;
     if (emits) own[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
   }
-  if (sends) batch.count = int(light.size());
-  if (sends) surfaces_.setVertices(lanes, batch.arrivals);
+  if (!sends) return;
+  batch.count = int(light.size());
+  surfaces_.setVertices(lanes, arrivals, batch.used());
 }
 
 void Paths::trace(const CameraPoint& point, std::uint32_t pixel, std::uint32_t first,

@@ -54,10 +54,15 @@ class Paths {
   void fromEmitters(Batch& batch) const;
   std::uint32_t shoot(Batch& batch, PathLanes& lanes, ShotLanes& shots) const;
   void fromShots(Batch& batch) const;
+  template <class Free>
+  std::uint32_t shadowRays(Batch& batch, const Free& whenFree) const;
   void castShadows(Batch& batch, LightPath direct) const;
+  void addSky(Batch& batch, const SkyPlaces& places, const LaneVectors& directions, std::uint32_t free,
+              const LaneVectors& share) const;
   void findSky(Batch& batch) const;
   void finish(Batch& batch) const;
   float densityOf(const Batch& batch, int lane, const trace::Hit& hit) const;
+  bool survives(Batch& batch, int lane, std::uint32_t number) const;
   void advance(Batch& batch, bool go_on) const;
   void traceSteps(Batch& batch, trace::Hit* hits, bool go_on) const;
   void addEmission(Batch& batch, int lane, const trace::Hit& hit) const;

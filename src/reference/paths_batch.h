@@ -29,10 +29,7 @@ struct Paths::Batch {
   Surfaces::Arrivals arrivals{};
   LightLanes toward;
   SkyPlaces sky_by_light, sky_by_lobes;
-  LaneVectors sky_directions;  // by light
-  std::uint32_t above = 0;     // those above the surface, a bit a lane
-  SkyLight sky;
-  LaneVectors step_light;  // that the steps find in the sky, unless something is in the way
+  LaneVectors step_light;  // that steps find in a sky of radiance 1
   struct Shot {
     PathLanes lanes{};
     Surfaces::Arrivals arrivals{};

@@ -13,21 +13,46 @@ constexpr std::size_t kFewLamps = 8;  // so many all shine on what the camera se
 
 }  // namespace
 
-void Paths::castShadows(Batch& batch, LightPath direct) const {
+// A bit for each lane whose light comes through.
+template <class Free>
+std::uint32_t Paths::shadowRays(Batch& batch, const Free& whenFree) const {
   const LightLanes& toward = batch.toward;
+  std::uint32_t free = 0;
   for (std::uint32_t rest = toward.wanted & batch.used(); rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
     const trace::Ray ray{batch.lanes.origin.get(i), toward.direction.get(i), 0.0f, toward.t_far.at[i]};
     batch.record(ray, true);
-    if (!tracer_.occluded(ray)) batch.add(i, direct, toward.light.get(i));
+    if (tracer_.occluded(ray)) continue;
+    free |= 1u << i;
+    whenFree(i);
+  }
+  return free;
+}
+
+void Paths::castShadows(Batch& batch, LightPath direct) const {
+  shadowRays(batch, [&](int i) { batch.add(i, direct, batch.toward.light.get(i)); });
+}
+
+// The sky's own texels are read only where they are seen: they are far away in memory.
+void Paths::addSky(Batch& batch, const SkyPlaces& places, const LaneVectors& directions, std::uint32_t free,
+                   const LaneVectors& share) const {
+  if (free == 0) return;
+  LaneVectors radiance;
+  environment_->radiance(places, directions, free, radiance);
+  for (std::uint32_t rest = free; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    batch.add(i, kEnvironmentDirect, share.get(i) * radiance.get(i));
   }
 }
 
 void Paths::fromEnvironment(Batch& batch) const {
-  environment_->at(batch.sky_by_light, batch.sky_directions, batch.above, batch.sky);
-  batch.toward.direction = batch.sky_directions;
-  lightFromSky(batch.lanes, batch.sky.radiance, batch.sky.pdf, both_, batch.toward);
-  castShadows(batch, kEnvironmentDirect);
+  environment_->choose(batch.scramble(kEnvironment), batch.lanes.place, batch.sky_by_light,
+                       batch.toward.direction);
+  LaneFloats pdf;
+  densitiesOf(batch.sky_by_light, pdf);
+  lightFromSky(batch.lanes, pdf, both_, batch.toward);
+  const std::uint32_t free = shadowRays(batch, [&](int i) { environment_->sendFor(batch.sky_by_light, i); });
+  addSky(batch, batch.sky_by_light, batch.toward.direction, free, batch.toward.light);
 }
 
 void Paths::fromEmitters(Batch& batch) const {

@@ -15,8 +15,7 @@ std::uint32_t Paths::shoot(Batch& batch, PathLanes& lanes, ShotLanes& shots) con
   if (lamps_.size() > 1) numbersOfLanes(batch.shotScramble(0), batch.lanes.place, which, unused);
   numbersOfLanes(batch.shotScramble(1), batch.lanes.place, u, v);
   Surfaces::Arrivals& arrivals = batch.shot->arrivals;
-  arrivals.varied = 0;
-  arrivals.glossy = false;
+  arrivals.clear();
   std::uint32_t landed = 0;
   int lamp[kLanes];
   for (int i = 0; i < batch.count; ++i) {
@@ -33,10 +32,10 @@ std::uint32_t Paths::shoot(Batch& batch, PathLanes& lanes, ShotLanes& shots) con
     if (glm::dot(way, hit.geometric_normal) * glm::dot(ray.direction, hit.geometric_normal) >= 0.0f) continue;
     lanes.to_view.set(i, way / length);
     lamp[i] = shot.lamp;
-    if (surfaces_.arrive(lanes, arrivals, i, hit)) landed |= 1u << i;
+    if (surfaces_.arrive(arrivals, i, hit)) landed |= 1u << i;
   }
   if (landed == 0) return 0;
-  surfaces_.setVertices(lanes, arrivals);
+  surfaces_.setVertices(lanes, arrivals, landed);
   for (std::uint32_t rest = landed; rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
     const Lamp& from = lamps_[std::size_t(lamp[i])];

@@ -53,18 +53,20 @@ struct SkyPlaces {
   LaneFloats x, y;
   LaneFloats density, cos_elevation;  ///< the one by the other is 1/sr
 };
-struct SkyLight {
-  LaneVectors radiance;
-  LaneFloats pdf;  ///< 1/sr
-};
-
 /// Directions by their light, from numbers as Sampler::numbers gives them.
 void chooseIn(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& numbers,
               SkyPlaces& places, LaneVectors& directions);
 void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places);
-/// Sends for the light of those lanes (a bit each): lightAt is better called some time later.
-void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask);
-/// Of those lanes; 0 in all others.
-void lightAt(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light);
+/// 1/sr.
+void densitiesOf(const SkyPlaces& places, LaneFloats& pdf);
+/// Sends for the light of a lane: radianceOf is better asked some time later.
+inline void sendFor(const SkyTable& sky, const SkyPlaces& places, int lane) {
+  const glm::vec4* texel = &sky.texels[2 * (std::size_t(places.cell_y.at[lane]) * std::size_t(sky.width + 1) +
+                                            std::size_t(places.cell_x.at[lane]))];
+  __builtin_prefetch(texel);
+  __builtin_prefetch(texel + 3);
+}
+/// Of those lanes (a bit each); 0 in all others.
+void radianceOf(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, LaneVectors& radiance);
 
 }  // namespace gloam::reference

@@ -10,10 +10,7 @@
 #define HWY_TARGET_INCLUDE "reference/sky_lanes_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include <hwy/cache_control.h>
 // clang-format on
-#include <bit>
-
 #include "reference/lanes_simd.h"
 #include "reference/sky_lanes.h"
 
@@ -93,30 +90,38 @@ HWY_INLINE V sampleLinear(V a, V b, V u) {
   return hn::Min(hn::Div(hn::Mul(u, sum), hn::Add(a, root)), all(1.0f));
 }
 
-struct Line {
-  V upper, lower, density;
-  V at(V y) const { return hn::Mul(density, mix(upper, lower, y)); }
+struct Blocks {
+  V x, y, across, down, upper, lower, density;
+  // Density at a height in the block, but for the cosine.
+  V densityAt(V place) const { return hn::Mul(density, mix(upper, lower, place)); }
 };
-HWY_INLINE Line lineOf(const SkyTable& sky, VI block) {
-  const float* line = &sky.blocks[0].upper;
-  return {hn::GatherIndex(D(), line, block), hn::GatherIndex(D(), line + 1, block),
-          hn::GatherIndex(D(), line + 2, block)};
+// Row by row and turned in registers: quicker than eight gathers.
+HWY_INLINE Blocks blocksAt(const SkyTable& sky, VI index) {
+  const hn::CappedTag<float, 4> four;
+  alignas(64) float low[kLanes][4], high[kLanes][4];
+  alignas(64) std::int32_t indices[kLanes];
+  hn::Store(index, DI(), indices);
+  for (std::size_t i = 0; i < hn::Lanes(D()); ++i) {
+    const float* from = &sky.blocks[std::size_t(indices[i])].x;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+      hn::StoreU(hn::LoadU(four, from + k), four, low[i] + k);
+      hn::StoreU(hn::LoadU(four, from + 4 + k), four, high[i] + k);
+    }
+  }
+  const Columns first = columns(low, 0), second = columns(high, 0);
+  return {first.a, first.b, first.c, first.d, second.a, second.b, second.c};
 }
 
 void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& from,
                   SkyPlaces& places, LaneVectors& directions) {
   const D d;
-  const float* blocks = &sky.blocks[0].x;
   const V half = all(0.5f), x_scale = all(1.0f / float(sky.width)), y_scale = all(0.5f / float(sky.height));
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const Chosen chosen = chosenBy(sky, numbers(scramble, load(from, i)));
-    const VI block = hn::ShiftLeft<3>(chosen.block);
-    const V x =
-        hn::MulAdd(chosen.x, hn::GatherIndex(d, blocks + 2, block), hn::GatherIndex(d, blocks, block));
-    const Line line = lineOf(sky, block);
-    const V down = sampleLinear(line.upper, line.lower, chosen.y);
-    const V y =
-        hn::MulAdd(down, hn::GatherIndex(d, blocks + 3, block), hn::GatherIndex(d, blocks + 1, block));
+    const Blocks block = blocksAt(sky, chosen.block);
+    const V x = hn::MulAdd(chosen.x, block.across, block.x);
+    const V down = sampleLinear(block.upper, block.lower, chosen.y);
+    const V y = hn::MulAdd(down, block.down, block.y);
     const VI cell_x = clampInt(toInt(x), sky.width - 1), cell_y = clampInt(toInt(y), sky.height);
     const Circle elevation = circle(hn::NegMulAdd(hn::Sub(y, half), y_scale, all(0.25f)));
     const Circle azimuth = circle(hn::MulSub(hn::Sub(x, half), x_scale, half));
@@ -127,7 +132,7 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    store(line.at(down), places.density, i);
+    store(block.densityAt(down), places.density, i);
     store(up, places.cos_elevation, i);
     store(V3{hn::MulAdd(cosine, local_x, hn::Mul(sine, local_z)), elevation.sine,
              hn::NegMulAdd(sine, local_x, hn::Mul(cosine, local_z))},
@@ -159,7 +164,6 @@ HWY_INLINE VI blockAt(const SkyTable& sky, V x, V y) {
 
 void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places) {
   const V one = all(1.0f), width = all(float(sky.width)), height = all(float(sky.height)), half = all(0.5f);
-  const float* blocks = &sky.blocks[0].x;
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
     const V3 to = load(directions, i);
     const V cos_elevation = hn::Sqrt(hn::MulAdd(to.x, to.x, hn::Mul(to.z, to.z)));
@@ -176,20 +180,23 @@ void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& p
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    const VI block = hn::ShiftLeft<3>(blockAt(sky, x, y));
-    const V below = hn::Sub(y, hn::GatherIndex(D(), blocks + 1, block));
-    const V down = hn::Div(below, hn::Max(hn::GatherIndex(D(), blocks + 3, block), all(1e-6f)));
-    store(lineOf(sky, block).at(clampUnit(down)), places.density, i);
+    const Blocks block = blocksAt(sky, blockAt(sky, x, y));
+    const V down = hn::Div(hn::Sub(y, block.y), hn::Max(block.down, all(1e-6f)));
+    store(block.densityAt(clampUnit(down)), places.density, i);
     store(cos_elevation, places.cos_elevation, i);
   }
 }
 
 // ---- Light ----------------------------------------------------------------------------------------------------------
 
-void lightKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light) {
-  const D d;
+void densityKernel(const SkyPlaces& places, LaneFloats& pdf) {
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D()))
+    store(hn::Div(load(places.density, i), hn::Max(load(places.cos_elevation, i), all(1e-6f))), pdf, i);
+}
+
+void radianceKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, LaneVectors& radiance) {
   const hn::CappedTag<float, 4> four;
-  HWY_ALIGN float texels[4 * kLanes] = {};
+  LaneRows texels;
   for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
     const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
     const auto cell =
@@ -200,17 +207,12 @@ void lightKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mas
       const auto upper_left = hn::LoadU(four, corner + c), upper_right = hn::LoadU(four, corner + 8 + c);
       const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 4 + c), upper_left), y, upper_left);
       const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 12 + c), upper_right), y, upper_right);
-      hn::Store(hn::MulAdd(hn::Sub(right, left), x, left), four, texels + 4 * i + c);
+      hn::StoreU(hn::MulAdd(hn::Sub(right, left), x, left), four, texels.at[i] + c);
     }
-    texels[4 * i + 3] = 1.0f;  // this lane was asked for
   }
-  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-    V3 radiance;
-    V asked;
-    hn::LoadInterleaved4(d, texels + 4 * i, radiance.x, radiance.y, radiance.z, asked);
-    const V cosine = hn::Max(load(places.cos_elevation, i), all(1e-6f));
-    store(radiance, light.radiance, i);
-    store(hn::Div(hn::Mul(asked, load(places.density, i)), cosine), light.pdf, i);
+  for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
+    const Columns c = columns(texels.at, i);
+    store(V3{c.a, c.b, c.c}, radiance, i);
   }
 }
 
@@ -222,7 +224,8 @@ HWY_AFTER_NAMESPACE();
 namespace gloam::reference {
 HWY_EXPORT(chooseKernel);
 HWY_EXPORT(findKernel);
-HWY_EXPORT(lightKernel);
+HWY_EXPORT(densityKernel);
+HWY_EXPORT(radianceKernel);
 
 void chooseIn(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& numbers,
               SkyPlaces& places, LaneVectors& directions) {
@@ -231,17 +234,11 @@ void chooseIn(const SkyTable& sky, const Sampler::Scramble& scramble, const Lane
 void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& places) {
   HWY_DYNAMIC_DISPATCH(findKernel)(sky, directions, places);
 }
-void sendFor(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask) {
-  for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    const glm::vec4* texel = &sky.texels[2 * (std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) +
-                                              std::size_t(places.cell_x.at[i]))];
-    hwy::Prefetch(texel);
-    hwy::Prefetch(texel + 3);
-  }
+void densitiesOf(const SkyPlaces& places, LaneFloats& pdf) {
+  HWY_DYNAMIC_DISPATCH(densityKernel)(places, pdf);
 }
-void lightAt(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, SkyLight& light) {
-  HWY_DYNAMIC_DISPATCH(lightKernel)(sky, places, mask, light);
+void radianceOf(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, LaneVectors& radiance) {
+  HWY_DYNAMIC_DISPATCH(radianceKernel)(sky, places, mask, radiance);
 }
 
 }  // namespace gloam::reference

@@ -25,11 +25,6 @@ glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& fallback) {
   return squared > 0.0f && std::isfinite(squared) ? v * (1.0f / std::sqrt(squared)) : fallback;
 }
 
-template <class T>
-T between(const std::vector<T>& values, const glm::uvec3& corners, float u, float v) {
-  return values[corners.x] * (1.0f - u - v) + values[corners.y] * u + values[corners.z] * v;
-}
-
 std::vector<glm::vec4> worldTangents(const std::vector<glm::vec4>& given, const glm::mat3& linear) {
   const float handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
   std::vector<glm::vec4> tangents;
@@ -59,13 +54,14 @@ Surfaces::Surface Surfaces::makeSurface(const Instance& instance, trace::Tracer:
   const glm::mat3 world_from_normal = normalTransform(linear);
   if (s.triangles.positions) s.vertices.resize(normals.size());
   for (std::size_t i = 0; i < s.vertices.size(); ++i)
-    s.vertices[i] = {s.triangles.positions[i], unitOr(world_from_normal * normals[i], glm::vec3(0.0f))};
+    s.vertices[i] = {s.triangles.positions[i], unitOr(world_from_normal * normals[i], glm::vec3(0.0f)), {}};
 
   const Material& m = *s.material;
   const Mesh& mesh = *s.mesh;
   const bool colors = mesh.colors.size() == mesh.vertexCount() && !mesh.colors.empty();
   if (colors) s.colors = mesh.colors.data();
   s.uniform = !m.base_color_map && !m.metallic_roughness_map && !colors;
+  s.factors = {glm::vec3(m.base_color), m.metallic, m.roughness, m.specular, m.normal_scale};
   s.lobes = readyLobes(glm::vec3(m.base_color), m.metallic, m.roughness, m.specular);
   s.base_color = TextureReader(scene_, m.base_color_map, mesh, true);
   s.metallic_roughness = TextureReader(scene_, m.metallic_roughness_map, mesh, false);
@@ -80,7 +76,22 @@ Surfaces::Surface Surfaces::makeSurface(const Instance& instance, trace::Tracer:
   s.emits = m.emission != glm::vec3(0.0f);
   s.holes = m.alpha_mask;
   s.textured = m.base_color_map || m.metallic_roughness_map || normal_mapped || (s.emits && m.emission_map);
+  setMaps(s);
   return s;
+}
+
+// What the maps have in common is worked out once for all of them.
+void Surfaces::setMaps(Surface& s) {
+  const TextureReader* first = nullptr;
+  for (const TextureReader* map : {&s.base_color, &s.metallic_roughness, &s.normal}) {
+    if (!*map) continue;
+    if (!first) first = map;
+    s.split_uv = s.split_uv || map->uvs() != first->uvs();
+    s.alike = s.alike && map->table().placement == first->table().placement;
+  }
+  s.alike = s.alike && !s.split_uv;
+  if (!first || !first->uvs() || s.split_uv) return;
+  for (std::size_t i = 0; i < s.vertices.size(); ++i) s.vertices[i].uv = first->uvs()[i];
 }
 
 Surfaces::Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tracer& tracer) : scene_(scene) {
@@ -91,127 +102,146 @@ Surfaces::Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tra
   for (const Surface& s : instances_) any_emits_ = any_emits_ || (s.emits && s.mesh->triangleCount() > 0);
 }
 
-void Surfaces::setLobes(PathLanes& lanes, int lane, const LobesReady& lobes) {
-  lanes.diffuse.set(lane, lobes.lobes.diffuse);
-  lanes.specular.set(lane, lobes.lobes.specular);
-  lanes.exponent.at[lane] = lobes.lobes.exponent;
-  lanes.specular_share.at[lane] = lobes.specular_share;
-}
-
-bool Surfaces::arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trace::Hit& hit,
-                      const glm::vec2& texture_shift) const {
+bool Surfaces::arrive(Arrivals& arrivals, int lane, const trace::Hit& hit) const {
+  static_assert(offsetof(brdf::Lobes, specular) == 12 && offsetof(brdf::Lobes, exponent) == 24 &&
+                offsetof(LobesReady, specular_share) == 28);
   const Surface& s = instances_[std::size_t(hit.instance)];
   const glm::uvec3 corners = s.triangles.vertices[hit.triangle];
-  for (int c = 0; c < 3; ++c) {
-    const WorldVertex& vertex = s.vertices[corners[c]];
-    arrivals.corners.positions[c].set(lane, vertex.position);
-    arrivals.corners.normals[c].set(lane, vertex.normal);
-  }
-  arrivals.corners.u.at[lane] = hit.u;
-  arrivals.corners.v.at[lane] = hit.v;
-  arrivals.corners.face.set(lane, hit.geometric_normal);
-  setLobes(lanes, lane, s.lobes);
+  for (int c = 0; c < 3; ++c) arrivals.meetings.corners[lane][c] = &s.vertices[corners[c]];
+  arrivals.meetings.lobes[lane] = &s.lobes.lobes.diffuse.x;
+  arrivals.meetings.set(lane, hit);
   arrivals.glossy = arrivals.glossy || s.lobes.specular_share > 0.0f || !s.uniform;
   arrivals.varied = (arrivals.varied & ~(1u << lane)) | (s.varied ? 1u << lane : 0u);
   if (s.varied) {
-    arrivals.instance[lane] = hit.instance;
-    arrivals.triangle[lane] = hit.triangle;
-    arrivals.texture_u.at[lane] = hit.u + texture_shift.x;
-    arrivals.texture_v.at[lane] = hit.v + texture_shift.y;
+    arrivals.surface[lane] = &s;
+    arrivals.corners[lane] = corners;
   }
   return !s.uniform || !s.lobes.black;
 }
 
-void Surfaces::spreadFirst(PathLanes& lanes, Arrivals& arrivals) {
-  spreadFirstLane(lanes, arrivals.corners);
-  arrivals.varied = arrivals.varied & 1u ? 0xffffu : 0u;
-  std::fill_n(arrivals.instance + 1, kLanes - 1, arrivals.instance[0]);
-  std::fill_n(arrivals.triangle + 1, kLanes - 1, arrivals.triangle[0]);
-}
+namespace {
 
-void Surfaces::setMaterial(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
-                           const Surface& s) const {
-  const Material& m = *s.material;
-  MaterialLanes material;
-  material.base_color = glm::vec3(m.base_color);
-  material.metallic = m.metallic;
-  material.roughness = m.roughness;
-  material.specular = m.specular;
-  s.read(s.base_color, arrivals, mask, material.color);
-  s.read(s.metallic_roughness, arrivals, mask, material.metallic_roughness);
-  if (s.colors) {
-    forLanes(mask, [&](int lane) {
-      const glm::uvec3& corners = s.triangles.vertices[arrivals.triangle[lane]];
-      const float u = arrivals.corners.u.at[lane], v = arrivals.corners.v.at[lane];
-      material.color.set(lane, material.color.get(lane) * glm::vec3(between(s.mesh->colors, corners, u, v)));
-    });
-  }
-  reference::setLobes(lanes, mask, material);
-}
+/// The maps of lanes that have some, and what they have in common.
+class Maps {
+ public:
+  Maps(const Surfaces::Arrivals& arrivals, std::uint32_t mask);
+  void setMaterial(PathLanes& lanes);
+  void setNormals(PathLanes& lanes);
 
-void Surfaces::setNormals(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
-                          const Surface& s) const {
-  TangentLanes map;
-  map.scale = s.material->normal_scale;
-  s.read(s.normal, arrivals, mask, map.texel);
+ private:
+  struct Map {
+    TextureLanes textures;
+    std::uint32_t mask = 0;
+    void add(int lane, const TextureReader& reader) {
+      textures[lane] = &reader.table();
+      mask |= std::uint32_t(bool(reader)) << lane;
+    }
+  };
+  void shift(std::uint32_t mask);
+  void read(const Map& map, TextureReader Surfaces::Surface::*reader, bool srgb, LaneVectors& color);
+
+  const Surfaces::Arrivals& arrivals_;
+  LaneFloats u_, v_;
+  Map base_color_, metallic_roughness_, normal_;
+  const MaterialFactors* factors_[kLanes];
+  std::uint32_t not_uniform_ = 0, colored_ = 0, tilted_ = 0, split_ = 0;
+  bool alike_ = true;
+  TexelLanes texels_;  // of all maps, where alike
+};
+
+Maps::Maps(const Surfaces::Arrivals& arrivals, std::uint32_t mask)
+    : arrivals_(arrivals), u_(arrivals.places.u), v_(arrivals.places.v) {
+  Map any;
   forLanes(mask, [&](int lane) {
-    const glm::uvec3& corners = s.triangles.vertices[arrivals.triangle[lane]];
-    const glm::vec4 tangent =
-        between(s.tangents, corners, arrivals.corners.u.at[lane], arrivals.corners.v.at[lane]);
-    map.tangent.set(lane, glm::vec3(tangent));
-    map.handedness.at[lane] = tangent.w;
+    const Surfaces::Surface& s = *arrivals.surface[lane];
+    const std::uint32_t bit = 1u << lane;
+    factors_[lane] = &s.factors;
+    base_color_.add(lane, s.base_color);
+    metallic_roughness_.add(lane, s.metallic_roughness);
+    normal_.add(lane, s.normal);
+    any.textures[lane] = base_color_.mask & bit           ? base_color_.textures[lane]
+                         : metallic_roughness_.mask & bit ? metallic_roughness_.textures[lane]
+                                                          : normal_.textures[lane];
+    not_uniform_ |= s.uniform ? 0u : bit;
+    colored_ |= s.colors ? bit : 0u;
+    tilted_ |= s.tangents.empty() ? 0u : bit;
+    split_ |= s.split_uv ? bit : 0u;
+    alike_ = alike_ && s.alike;
   });
-  tiltNormals(lanes, mask, arrivals.corners, map);
+  if (arrivals.shifted) shift(mask & ~split_);
+  any.mask = base_color_.mask | metallic_roughness_.mask | normal_.mask;
+  if (alike_ && any.mask != 0) findTexels(any.textures, any.mask, u_, v_, texels_);
 }
 
-void Surfaces::Surface::read(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
-                             LaneVectors& color) const {
-  if (!texture) {
-    forLanes(mask, [&](int lane) { color.set(lane, glm::vec3(1.0f)); });
-    return;
-  }
-  LaneFloats u, v;
-  setCoordinates(texture, arrivals, mask, u, v);
-  readTexture(texture.table(), u, v, color);
-}
-
-void Surfaces::Surface::setCoordinates(const TextureReader& texture, const Arrivals& arrivals,
-                                       std::uint32_t mask, LaneFloats& u, LaneFloats& v) const {
-  u = v = {};
+void Maps::shift(std::uint32_t mask) {
   forLanes(mask, [&](int lane) {
-    const glm::vec2 uv = texture.coordinates(triangles.vertices[arrivals.triangle[lane]],
-                                             arrivals.texture_u.at[lane], arrivals.texture_v.at[lane]);
+    const WorldVertex* const* corners = arrivals_.meetings.corners[lane];
+    const glm::vec2 moved = (corners[1]->uv - corners[0]->uv) * arrivals_.shift_u.at[lane] +
+                            (corners[2]->uv - corners[0]->uv) * arrivals_.shift_v.at[lane];
+    u_.at[lane] += moved.x;
+    v_.at[lane] += moved.y;
+  });
+}
+
+void Maps::read(const Map& map, TextureReader Surfaces::Surface::*reader, bool srgb, LaneVectors& color) {
+  if (alike_ || map.mask == 0) return readTexels(map.textures, map.mask, texels_, srgb, color);
+  LaneFloats u = u_, v = v_;
+  forLanes(map.mask & split_, [&](int lane) {
+    const glm::vec2 shift = arrivals_.shifted
+                                ? glm::vec2(arrivals_.shift_u.at[lane], arrivals_.shift_v.at[lane])
+                                : glm::vec2(0.0f);
+    const glm::vec2 uv = (arrivals_.surface[lane]->*reader)
+                             .coordinates(arrivals_.corners[lane], arrivals_.meetings.u.at[lane] + shift.x,
+                                          arrivals_.meetings.v_and_face[lane][0] + shift.y);
     u.at[lane] = uv.x;
     v.at[lane] = uv.y;
   });
+  TexelLanes texels;
+  findTexels(map.textures, map.mask, u, v, texels);
+  readTexels(map.textures, map.mask, texels, srgb, color);
 }
 
-// Lanes of one surface after the other.
-template <class Visit>
-void Surfaces::forSurfaces(const Arrivals& arrivals, const Visit& visit) const {
-  for (std::uint32_t mask = arrivals.varied; mask != 0;) {
-    const std::int32_t instance = arrivals.instance[std::countr_zero(mask)];
-    std::uint32_t same = 0;
-    forLanes(mask, [&](int lane) { same |= std::uint32_t(arrivals.instance[lane] == instance) << lane; });
-    visit(instances_[std::size_t(instance)], same);
-    mask &= ~same;
+void Maps::setMaterial(PathLanes& lanes) {
+  if (not_uniform_ == 0) return;
+  MaterialLanes material;
+  read(base_color_, &Surfaces::Surface::base_color, true, material.color);
+  read(metallic_roughness_, &Surfaces::Surface::metallic_roughness, false, material.metallic_roughness);
+  forLanes(colored_, [&](int lane) {
+    const glm::uvec3& corners = arrivals_.corners[lane];
+    const glm::vec4* colors = arrivals_.surface[lane]->colors;
+    const float u = arrivals_.meetings.u.at[lane], v = arrivals_.meetings.v_and_face[lane][0];
+    const glm::vec4 color =
+        colors[corners.x] * (1.0f - u - v) + colors[corners.y] * u + colors[corners.z] * v;
+    material.color.set(lane, material.color.get(lane) * glm::vec3(color));
+  });
+  std::copy_n(factors_, kLanes, material.factors);
+  setLobes(lanes, not_uniform_, material);
+}
+
+void Maps::setNormals(PathLanes& lanes) {
+  if (tilted_ == 0) return;
+  TangentLanes map;
+  read(normal_, &Surfaces::Surface::normal, false, map.texel);
+  map.u = arrivals_.meetings.u;
+  map.side = arrivals_.places.side;
+  forLanes(tilted_, [&](int lane) {
+    map.v.at[lane] = arrivals_.meetings.v_and_face[lane][0];
+    map.factors[lane] = factors_[lane];
+    for (int c = 0; c < 3; ++c)
+      map.corners[lane][c] = &arrivals_.surface[lane]->tangents[arrivals_.corners[lane][c]];
+  });
+  tiltNormals(lanes, tilted_, map);
+}
+
+}  // namespace
+
+void Surfaces::setVertices(PathLanes& lanes, Arrivals& arrivals, std::uint32_t mask) const {
+  reference::setVertices(lanes, arrivals.meetings, mask, arrivals.places);
+  if (const std::uint32_t varied = arrivals.varied & mask; varied != 0) {
+    Maps maps(arrivals, varied);
+    maps.setMaterial(lanes);
+    maps.setNormals(lanes);
   }
-}
-
-void Surfaces::setVertices(PathLanes& lanes, const Arrivals& arrivals) const {
-  forSurfaces(arrivals, [&](const Surface& s, std::uint32_t mask) {
-    for (const TextureReader* texture : {&s.base_color, &s.metallic_roughness, &s.normal}) {
-      if (!*texture) continue;
-      LaneFloats u, v;
-      s.setCoordinates(*texture, arrivals, mask, u, v);
-      sendForTexture(texture->table(), u, v, mask);
-    }
-  });
-  reference::setVertices(lanes, arrivals.corners);
-  forSurfaces(arrivals, [&](const Surface& s, std::uint32_t mask) {
-    if (!s.uniform) setMaterial(lanes, arrivals, mask, s);
-    if (!s.tangents.empty()) setNormals(lanes, arrivals, mask, s);
-  });
   lanes.glossy = arrivals.glossy;
   if (lanes.glossy) setMirrors(lanes);
 }

@@ -18,21 +18,27 @@ class Surfaces {
   /// Keeps references to `scene` and `tracer`. Throws Error for a mesh without normals.
   Surfaces(const Scene& scene, const PosedScene& posed, const trace::Tracer& tracer);
 
+  struct Surface;
   /// What rays have met, gathered lane by lane.
   struct Arrivals {
-    CornerLanes corners;
+    MeetingLanes meetings;
+    PlaceLanes places;
     std::uint32_t varied = 0;  ///< bit i: lane i's lobes or normal come from textures or vertex colours
     bool glossy = false;
-    std::int32_t instance[kLanes], triangle[kLanes];  ///< of varied lanes
-    LaneFloats texture_u, texture_v;                  ///< the same: where textures are read
+    bool shifted = false;  ///< textures are read beside where the ray met the triangle
+    // Of varied lanes:
+    const Surface* surface[kLanes];
+    glm::uvec3 corners[kLanes];
+    LaneFloats shift_u, shift_v;  ///< so far beside, on the triangle; where `shifted`
+    void clear() {
+      varied = 0;
+      glossy = shifted = false;
+    }
   };
   /// One more vertex. False where nothing is sent back: then the lane may be taken by another.
-  bool arrive(PathLanes& lanes, Arrivals& arrivals, int lane, const trace::Hit& hit,
-              const glm::vec2& texture_shift = glm::vec2(0.0f)) const;
-  /// All lanes become copies of the first, but for `place`, `slot` and where textures are read.
-  static void spreadFirst(PathLanes& lanes, Arrivals& arrivals);
-  /// The vertices of all lanes, from to_view and what has arrived.
-  void setVertices(PathLanes& lanes, const Arrivals& arrivals) const;
+  bool arrive(Arrivals& arrivals, int lane, const trace::Hit& hit) const;
+  /// The vertices of those lanes, a bit each, from to_view and what has arrived.
+  void setVertices(PathLanes& lanes, Arrivals& arrivals, std::uint32_t mask) const;
   /// Sends for what arrive() will need: first which vertices, then, when that has come, the vertices.
   void prefetchCorners(const trace::Hit& hit) const {
     __builtin_prefetch(&instances_[std::size_t(hit.instance)].triangles.vertices[hit.triangle]);
@@ -60,35 +66,27 @@ class Surfaces {
     return instances_[std::size_t(instance)].mesh->triangleCount();
   }
 
- private:
-  struct alignas(32) WorldVertex {  // all of it comes from memory at once
-    glm::vec3 position, normal;
-  };
   struct Surface {
-    const Mesh* mesh = nullptr;
-    const Material* material = nullptr;
+    // What arrive() reads stands first.
     trace::Tracer::Triangles triangles;
     std::vector<WorldVertex> vertices;
-    std::vector<glm::vec4> tangents;  // in the world, where there is a normal map
-    TextureReader base_color, metallic_roughness, normal, emission;
-    const glm::vec4* colors = nullptr;
-    LobesReady lobes;     // where uniform
     bool uniform = true;  // neither maps nor vertex colours in the lobes
     bool varied = false;  // not uniform, or a normal map
     bool textured = false, emits = false, holes = false;
-    void setCoordinates(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
-                        LaneFloats& u, LaneFloats& v) const;
-    void read(const TextureReader& texture, const Arrivals& arrivals, std::uint32_t mask,
-              LaneVectors& color) const;
+    bool alike = true;      // the maps' texels have the same places
+    bool split_uv = false;  // maps of several sets of texture coordinates: WorldVertex::uv is no use
+    LobesReady lobes;       // where uniform
+    MaterialFactors factors;
+    TextureReader base_color, metallic_roughness, normal, emission;
+    std::vector<glm::vec4> tangents;  // in the world, where there is a normal map
+    const glm::vec4* colors = nullptr;
+    const Mesh* mesh = nullptr;
+    const Material* material = nullptr;
   };
+
+ private:
   Surface makeSurface(const Instance& instance, trace::Tracer::Triangles triangles) const;
-  template <class Visit>
-  void forSurfaces(const Arrivals& arrivals, const Visit& visit) const;
-  void setMaterial(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
-                   const Surface& surface) const;
-  void setNormals(PathLanes& lanes, const Arrivals& arrivals, std::uint32_t mask,
-                  const Surface& surface) const;
-  static void setLobes(PathLanes& lanes, int lane, const LobesReady& lobes);
+  static void setMaps(Surface& surface);
 
   const Scene& scene_;
   std::vector<Surface> instances_;

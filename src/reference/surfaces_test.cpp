@@ -143,7 +143,12 @@ void compareTexturesWithOnePoint() {
             x.at[i % kLanes] = uv.x;
             y.at[i % kLanes] = uv.y;
             LaneVectors lanes;
-            readTexture(reader.table(), x, y, lanes);
+            TextureLanes textures{};
+            textures[i % kLanes] = &reader.table();
+            TexelLanes texels;
+            findTexels(textures, 1u << (i % kLanes), x, y, texels);
+            readTexels(textures, 1u << (i % kLanes), texels, srgb, lanes);
+            EXPECT_EQ(lanes.get(int((i + 1) % kLanes)), glm::vec3(1.0f));
             EXPECT_LT(glm::length(lanes.get(int(i % kLanes)) - glm::vec3(want)), 1e-4f);
           }
         }

@@ -65,6 +65,13 @@ TextureReader::TextureReader(const Scene& scene, const TextureSlot& slot, const 
   table_.shift = glm::vec2(slot.texture_from_uv[2]);
   table_.across = {slot.wrap_u, texture.width};
   table_.down = {slot.wrap_v, texture.height};
+  table_.placement = {{table_.from_u.x, table_.from_v.x, table_.shift.x},
+                      float(texture.width),
+                      {table_.from_u.y, table_.from_v.y, table_.shift.y},
+                      float(texture.height),
+                      float(slot.wrap_u),
+                      float(slot.wrap_v),
+                      slot.nearest ? 1.0f : 0.0f};
   const std::size_t set = std::size_t(slot.uv_set);
   if (set < mesh.uv_sets.size() && !mesh.uv_sets[set].empty()) uvs_ = mesh.uv_sets[set].data();
 }

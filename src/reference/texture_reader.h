@@ -13,11 +13,21 @@ struct TextureTable {
     Wrap wrap = Wrap::kRepeat;
     int size = 1;
   };
+  /// Where texture coordinates lie in the picture, as lanes read it. Textures with the same Placement have texels in the same
+  /// places.
+  struct Placement {
+    float across_from_uv[3] = {1.0f, 0.0f, 0.0f}, width = 1.0f;  ///< KHR_texture_transform: u, v and a shift
+    float down_from_uv[3] = {0.0f, 1.0f, 0.0f}, height = 1.0f;
+    float wrap_across = 0.0f, wrap_down = 0.0f;  ///< Wrap's numbers
+    float nearest = 0.0f, unused = 0.0f;
+    bool operator==(const Placement&) const = default;
+  };
   const std::uint8_t* texels = nullptr;  ///< rgba
   const float* linear = nullptr;         ///< of each colour byte
   bool srgb = false, nearest = false;
   glm::vec2 from_u{1.0f, 0.0f}, from_v{0.0f, 1.0f}, shift{0.0f};  ///< KHR_texture_transform
   Axis across, down;
+  Placement placement;
 };
 
 class TextureReader {
