@@ -3,37 +3,18 @@
 //
 // gloam bake: precomputes radiance transfer and stores it in a .glb.
 #include <fmt/core.h>
-#include <gloam/bake.h>
-#include <image/atomic_file.h>
 
-#include "bake_limits.h"
-#include "bake_neighbourhood.h"
-#include "bake_pca.h"
+#include "bake_checkpoints.h"
+#include "bake_choice.h"
 #include "bake_run.h"
-#include "bake_surfaces.h"
-#include "bake_volume.h"
 #include "json.h"
 #include "output.h"
-#include "scene_inputs.h"
 #include "verb.h"
 
 namespace gloam::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct BakeChoice {
-  SceneChoice scene;
-  BakeOptions options;
-  LimitChoice limits;
-  SurfaceChoice surfaces;
-  PcaChoice pca;
-  NeighbourhoodChoice neighbourhood;
-  VolumeChoice volumes;
-  std::string output, kind = "di", glossy = "auto";
-  bool half_float = false, resume = true, estimate_only = false;
-  std::vector<const CLI::Option*> of_rays, of_bounces, of_gloss;  ///< options that not all bakes use
-};
 
 TransferKind kindOf(const std::string& kind) {
   if (kind == "du") return TransferKind::kUnshadowed;
@@ -57,34 +38,7 @@ Json estimateJson(const BakeEstimate& estimate) {
           {"file_bytes", estimate.file_bytes}};
 }
 
-// Found before hours of work, not after.
-void checkOutput(const BakeChoice& choice) {
-  if (fs::path(choice.output).extension() != ".glb") {
-    throw Error(choice.output, "expected a name that ends in .glb");
-  }
-  refuseOverwriting(choice.output, choice.scene.name);
-  AtomicFile probe(choice.output);
-}
-
-void remarkUnusedOptions(const BakeChoice& choice, Console& console) {
-  const auto remark = [&](const std::vector<const CLI::Option*>& options) {
-    for (const CLI::Option* option : options) {
-      if (option->count() == 0) continue;
-      console.remark(fmt::format("{} has no effect on --kind {}", option->get_name(), choice.kind));
-    }
-  };
-  for (const CLI::Option* option : choice.of_gloss) {
-    if (choice.glossy == "off" && option->count() > 0)
-      console.remark(fmt::format("{} has no effect with --glossy off", option->get_name()));
-  }
-  if (choice.kind != "di") remark(choice.of_bounces);
-  if (choice.kind == "du") remark(choice.of_rays);
-}
-
-Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& console, BakeReport& report) {
-  std::error_code ignored;
-  const fs::path& checkpoint = choice.options.checkpoint;
-  if (!choice.resume) fs::remove(checkpoint, ignored);
+Scene bakeAsChosen(const Scene& scene, const BakeOptions& options, Console& console, BakeReport& report) {
   Progress progress = console.progress();
   if (progress.update) {  // the first report comes when scene, options and checkpoint have proved good
     progress.update = [&console, update = progress.update](double fraction, const std::string& what) {
@@ -92,17 +46,9 @@ Scene bakeWithCheckpoint(const Scene& scene, const BakeChoice& choice, Console& 
       update(fraction, what);
     };
   }
-  try {
-    return bakeTransfer(scene, choice.options, progress, &report);
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    if (!text.starts_with(checkpoint.string() + ":")) throw;
-    throw Error(text.substr(0, text.find("; delete it")) + "; --no-resume starts anew");
-  } catch (const Interrupted&) {
-    const bool kept = fs::exists(checkpoint, ignored);
-    throw Interrupted(kept ? fmt::format("interrupted; the same command goes on from {}", checkpoint.string())
-                           : "interrupted before anything was finished");
-  }
+  Scene baked = bakeTransfer(scene, options, progress, &report);
+  console.endProgress();
+  return baked;
 }
 
 void printResult(const BakeChoice& choice, const BakeReport& report, const TessellateReport& split,
@@ -152,51 +98,98 @@ void printResult(const BakeChoice& choice, const BakeReport& report, const Tesse
                 {"file_bytes", size}}));
 }
 
+/// Transfer with what grids and volumes add: memory is that of the greatest stage, and of writing all of it.
+BakeEstimate withAll(BakeEstimate estimate, const BakeEstimate& as_floats, const Json& grids,
+                     const Json& clouds, bool half_float) {
+  constexpr std::size_t kWorkBytes = std::size_t(14) << 20;
+  std::size_t kept = 0, stage = 0, largest = 0;  // floats of finished grids and volumes
+  const std::size_t factor = half_float ? 2 : 1, before = kWorkBytes + 2 * as_floats.file_bytes;
+  const auto add = [&](const Json& part) {
+    const std::size_t file = part["file_bytes"].get<std::size_t>();
+    stage = std::max(stage, before + kept + part["memory_bytes"].get<std::size_t>());
+    kept += file * factor;
+    largest = std::max(largest, file);
+    estimate.file_bytes += file;
+  };
+  if (!clouds.is_null()) add(clouds);
+  for (const Json& grid : grids) add(grid);
+  if (kept == 0) return estimate;
+  const std::size_t writing = before + kept + 2 * estimate.file_bytes + (half_float ? largest : 0);
+  estimate.memory_bytes = std::max({estimate.memory_bytes + kept, stage, writing});
+  estimate.least_memory_bytes = std::max({estimate.least_memory_bytes, stage, writing});
+  return estimate;
+}
+
+/// All that --estimate says. Splitting triangles is work that it leaves out.
+int printEstimate(const BakeChoice& choice, const BakeEstimate& estimate, const Json& grids,
+                  const Json& clouds, Console& console) {
+  Json json = estimateJson(estimate);
+  json["neighbourhoods"] = grids;
+  json["volumes"] = clouds;
+  if (console.json) console.print(jsonText(json));
+  if (choice.surfaces.tessellate > 0.0f)
+    console.remark(
+        fmt::format("that is of the vertices as they are: --tessellate adds some, up to {} in all "
+                    "(--tessellate-max)",
+                    countText(std::size_t(choice.surfaces.tessellate_max))));
+  return kDone;
+}
+
+/// Each stage keeps what it has finished until the file is written.
+void bakeAndWrite(Scene scene, const std::vector<int>& carriers, BakeChoice& choice,
+                  const TessellateReport& split, Console& console) {
+  const BakeCheckpoints checkpoints(choice.output);
+  choice.options.checkpoint = checkpoints.transfer();
+  choice.options.keep_checkpoint = true;
+  if (!choice.resume) checkpoints.remove();
+  Json volumes, neighbourhoods;
+  BakeReport report;
+  CompressReport compressed;
+  Scene baked;
+  checkpoints.guard([&] {
+    scene = bakeVolumesAsChosen(std::move(scene), choice.volumes, checkpoints, console, volumes);
+    baked = bakeAsChosen(scene, choice.options, console, report);
+    neighbourhoods = bakeNeighbourhoods(baked, carriers, choice.neighbourhood, checkpoints, console);
+    baked = compressedAsChosen(std::move(baked), choice.pca, choice.half_float, console, compressed);
+  });
+  writeGlb(baked, choice.output, {.half_float = choice.half_float});
+  checkpoints.remove();
+  remarkLostLight(baked, console);
+  for (const std::string& warning : report.warnings) console.remark(warning);
+  printResult(choice, report, split, neighbourhoods, volumes, compressed, console);
+}
+
 int runBake(BakeChoice choice, Console& console) {
   if (choice.output.empty()) choice.output = sceneStem(choice.scene.name) + "_prt.glb";
   choice.options.kind = kindOf(choice.kind);
   choice.options.glossy = glossyOf(choice.glossy);
   applyLimits(choice.options, choice.limits, console);
-  if (!choice.estimate_only) checkOutput(choice);
+  checkBakeChoice(choice);
   Scene scene = loadSceneToDraw(choice.scene, console);
-  remarkUnusedOptions(choice, console);
+  remarkUnusedOptions(choice, scene, console);
   remarkUnusedSurfaceOptions(choice.options, choice.surfaces, console);
   const std::vector<int> carriers =
       chooseNeighbourhoods(scene, choice.neighbourhood, choice.options, console);
   if (!choice.options.apart) remarkMotion(scene, console);
   TessellateReport split;
-  scene = tessellatedAsChosen(std::move(scene), choice.options, choice.surfaces, console, split);
-  const BakeEstimate estimate = estimateBake(scene, choice.options);
+  if (!choice.estimate_only)
+    scene = tessellatedAsChosen(std::move(scene), choice.options, choice.surfaces, console, split);
+  const BakeEstimate of_transfer = estimateBake(scene, choice.options, choice.fileForm());
+  const Json grids = estimateNeighbourhoods(scene, carriers, choice.neighbourhood, choice.half_float, console,
+                                            choice.estimate_only);
+  const Json clouds = estimateVolumes(scene, choice.volumes, choice.options, choice.half_float, console,
+                                      choice.estimate_only);
+  const bool more = !grids.empty() || !clouds.is_null();
+  const BakeEstimate estimate =
+      more ? withAll(of_transfer, estimateBake(scene, choice.options), grids, clouds, choice.half_float)
+           : of_transfer;
   const std::optional<Error> fault = memoryFault(choice.options, estimate);
   if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
   if (choice.estimate_only && fault) console.remark(fault->what());
-  const Json grids =
-      estimateNeighbourhoods(scene, carriers, choice.neighbourhood, console, choice.estimate_only);
-  const Json clouds = estimateVolumes(scene, choice.volumes, choice.options, console, choice.estimate_only);
-  if (choice.estimate_only) {
-    Json json = estimateJson(estimate);
-    json["neighbourhoods"] = grids;
-    json["volumes"] = clouds;
-    if (console.json) console.print(jsonText(json));
-    return kDone;
-  }
+  if (choice.estimate_only) return printEstimate(choice, estimate, grids, clouds, console);
   if (fault) throw *fault;
-  choice.options.checkpoint = choice.output + ".checkpoint";
-  choice.neighbourhood.options.checkpoint = choice.options.checkpoint;
   console.remark(estimateText(estimate));
-  Json volumes;
-  scene = bakeVolumesAsChosen(std::move(scene), choice.volumes, console, volumes);
-  BakeReport report;
-  Scene baked = bakeWithCheckpoint(scene, choice, console, report);
-  console.endProgress();
-  const Json neighbourhoods =
-      bakeNeighbourhoods(baked, carriers, choice.neighbourhood, choice.resume, console);
-  CompressReport compressed;
-  baked = compressedAsChosen(std::move(baked), choice.pca, choice.half_float, console, compressed);
-  writeGlb(baked, choice.output, {.half_float = choice.half_float});
-  remarkLostLight(baked, console);
-  for (const std::string& warning : report.warnings) console.remark(warning);
-  printResult(choice, report, split, neighbourhoods, volumes, compressed, console);
+  bakeAndWrite(std::move(scene), carriers, choice, split, console);
   return kDone;
 }
 
@@ -213,20 +206,20 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
       ->default_str(choice.kind)
       ->group("Transfer");
   add("--order", options.order, {3, 6}, "bands of spherical harmonics; N*N coefficients a vertex");
-  choice.of_bounces.push_back(
-      add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di"));
-  choice.of_rays.push_back(
-      add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass"));
-  choice.of_bounces.push_back(
-      add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass"));
+  choice.bounces_option = add("--bounces", options.bounces, {1, 64}, "interreflection passes of --kind di");
+  choice.directions_option =
+      add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
+  choice.bounce_directions_option =
+      add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass");
   app.add_flag(
          "--apart", options.apart,
          "each root node is an object of its own, which shadows itself alone: objects may move against one "
          "another (prt.local_light)")
       ->group("Transfer");
-  addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
-      ->default_str("0")
-      ->group("Transfer");
+  choice.time_option =
+      addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
+          ->default_str("0")
+          ->group("Transfer");
 }
 
 void addGlossyOptions(CLI::App& app, BakeChoice& choice) {

@@ -21,7 +21,7 @@ void addLimitOptions(CLI::App& app, BakeOptions& options, LimitChoice& choice) {
                 "each vertex takes rays, up to --directions, until its standard error is this part of what "
                 "an open one has; the first bounce too. By default all take all")
           ->group("Transfer");
-  addText(app, "--memory", choice.memory, "SIZE",
+  addName(app, "--memory", choice.memory, "SIZE",
           "most memory that the bake may take, as 600M or 2G; less of it costs time in later bounces")
       ->group("Transfer");
 }

@@ -50,13 +50,13 @@ glm::ivec3 parseGrid(const std::string& text) {
 
 void addNeighbourhoodOptions(CLI::App& app, NeighbourhoodChoice& choice) {
   const char* group = "Neighbourhood";
-  addText(
+  addName(
       app, "--neighbourhood", choice.objects, "auto|NAME",
       "round these objects (root nodes, by name, apart by commas; auto: those that move) a grid is baked, "
       "through which they throw shadow and light on whatever passes; implies --apart")
       ->group(group);
   const auto ofGrid = [&](CLI::Option* option) { choice.of_grid.push_back(option->group(group)); };
-  ofGrid(addText(app, "--grid", choice.grid, "N|XxYxZ", "points along the grid's longest side, or along each")
+  ofGrid(addName(app, "--grid", choice.grid, "N|XxYxZ", "points along the grid's longest side, or along each")
              ->default_str("16"));
   ofGrid(addNumber(app, "--neighbourhood-reach", choice.options.reach, {0.0, 16.0}, "LENGTHS",
                    "how far the grid goes beyond its object, in lengths of the object's longest side")
@@ -94,6 +94,8 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
     return chosen;
   }
   const auto find = [&](const std::string& name) {
+    if (name.empty())
+      throw Error("--neighbourhood", fmt::format("'{}' has an empty name between commas", choice.objects));
     const auto at = std::ranges::find(names, name);
     if (at == names.end())
       throw Error("--neighbourhood", fmt::format("no object is called '{}'; there are {}{}", name,
@@ -109,11 +111,13 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
 }
 
 Json estimateNeighbourhoods(const Scene& scene, const std::vector<int>& nodes,
-                            const NeighbourhoodChoice& choice, Console& console, bool print) {
+                            const NeighbourhoodChoice& choice, bool half_float, Console& console,
+                            bool print) {
   Json list = Json::array();
   for (const int node : nodes) {
     const NeighbourhoodEstimate estimate = estimateNeighbourhood(scene, node, choice.options);
     const glm::ivec3 size = estimate.size;
+    const std::size_t file_bytes = estimate.file_bytes / (half_float ? 2 : 1);
     const std::size_t most =
         choice.options.memory_bytes > 0 ? choice.options.memory_bytes : memoryOfMachine();
     if (estimate.memory_bytes > most)
@@ -122,10 +126,10 @@ Json estimateNeighbourhoods(const Scene& scene, const std::vector<int>& nodes,
                               "fewer points or a lower --order",
                               size.x, size.y, size.z, nameOf(scene, node),
                               bytesText(double(estimate.memory_bytes)), bytesText(double(most))));
-    const std::string line =
-        fmt::format("neighbourhood of {}: {} x {} x {} points; {:.3g} rays; {} of memory, {} in the file",
-                    nameOf(scene, node), size.x, size.y, size.z, double(estimate.rays),
-                    bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
+    const std::string line = fmt::format(
+        "neighbourhood of {}: {} x {} x {} points; {:.3g} rays; at most {} of memory, {} in the file",
+        nameOf(scene, node), size.x, size.y, size.z, double(estimate.rays),
+        bytesText(double(estimate.memory_bytes)), bytesText(double(file_bytes)));
     if (!print) {
       console.remark(line);
     } else if (!console.json) {
@@ -135,20 +139,19 @@ Json estimateNeighbourhoods(const Scene& scene, const std::vector<int>& nodes,
                     {"grid", {size.x, size.y, size.z}},
                     {"rays", estimate.rays},
                     {"memory_bytes", estimate.memory_bytes},
-                    {"file_bytes", estimate.file_bytes}});
+                    {"file_bytes", file_bytes}});
   }
   return list;
 }
 
 Json bakeNeighbourhoods(Scene& scene, const std::vector<int>& nodes, const NeighbourhoodChoice& choice,
-                        bool resume, Console& console) {
+                        const BakeCheckpoints& checkpoints, Console& console) {
   Json list = Json::array();
   std::vector<std::shared_ptr<const NeighbourhoodTransfer>> grids;
   for (const int node : nodes) {
     NeighbourhoodOptions options = choice.options;
-    options.checkpoint += fmt::format(".neighbourhood{}", list.size());
-    std::error_code ignored;
-    if (!resume) std::filesystem::remove(options.checkpoint, ignored);
+    options.checkpoint = checkpoints.neighbourhood(list.size());
+    options.keep_checkpoint = true;
     NeighbourhoodReport report;
     grids.push_back(std::make_shared<NeighbourhoodTransfer>(
         bakeNeighbourhood(scene, node, options, console.progress(), &report)));

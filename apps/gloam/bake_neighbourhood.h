@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bake_checkpoints.h"
 #include "console.h"
 #include "json.h"
 
@@ -30,9 +31,9 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
                                       Console& console);
 /// Says what each will take; also refuses before the bake what does not fit into memory. For --estimate --json: a list.
 Json estimateNeighbourhoods(const Scene& scene, const std::vector<int>& nodes,
-                            const NeighbourhoodChoice& choice, Console& console, bool print);
-/// Bakes them one after the other, each with a checkpoint beside the transfer's. A list for --json.
+                            const NeighbourhoodChoice& choice, bool half_float, Console& console, bool print);
+/// Bakes them one after the other; each stays in its checkpoint. A list for --json.
 Json bakeNeighbourhoods(Scene& scene, const std::vector<int>& nodes, const NeighbourhoodChoice& choice,
-                        bool resume, Console& console);
+                        const BakeCheckpoints& checkpoints, Console& console);
 
 }  // namespace gloam::cli

@@ -71,7 +71,7 @@ std::string estimateText(const BakeEstimate& estimate) {
   const std::string texels =
       estimate.texels > 0 ? fmt::format(", {} texels", countText(estimate.texels)) : "";
   return fmt::format(
-      "{} vertices{}{}, {} triangles; {:.3g} rays in the first pass; {} of memory, a file of {}",
+      "{} vertices{}{}, {} triangles; {:.3g} rays in the first pass; at most {} of memory and a file of {}",
       countText(estimate.vertices), matrices, texels, countText(estimate.triangles), double(estimate.rays),
       bytesText(double(estimate.memory_bytes)), bytesText(double(estimate.file_bytes)));
 }

@@ -19,9 +19,13 @@ std::string splitText(const TessellateReport& report, float bound) {
   if (report.above == 0) return text;
   text += fmt::format("; {} triangles are above {:.1f} %", countText(report.above), 100.0 * double(bound));
   if (report.at_finest > 0)
-    text += fmt::format(", {} of them as small as they get: light ends there at an edge, or at a facet",
+    text += fmt::format(", {} of them not worth more vertices: light ends there at an edge, or at a facet",
                         countText(report.at_finest));
-  if (report.at_finest < report.above) text += "; --tessellate-max allows no more";
+  if (report.out_of_rays) {
+    text += "; --tessellate-rays allows no more";
+  } else if (report.at_finest < report.above) {
+    text += "; --tessellate-max allows no more";
+  }
   return text;
 }
 
@@ -43,13 +47,19 @@ void addSurfaceOptions(CLI::App& app, BakeOptions& options, SurfaceChoice& choic
   choice.max_option = grouped(addInteger(app, "--tessellate-max", choice.tessellate_max, {3, 100000000}, "N",
                                          "vertices of the scene at most"))
                           ->default_str(std::to_string(choice.tessellate_max));
+  choice.mrays_option =
+      grouped(addInteger(app, "--tessellate-rays", choice.tessellate_mrays, {1, 1000000}, "MILLIONS",
+                         "rays by which errors are measured, in all: what bounds the time of splitting"))
+          ->default_str(std::to_string(choice.tessellate_mrays));
 }
 
 void remarkUnusedSurfaceOptions(const BakeOptions& options, const SurfaceChoice& choice, Console& console) {
   if (options.texels == 0 && options.texels_per_metre == 0.0f && choice.uv_set_option->count() > 0)
     console.remark("--uv-set has no effect without --texels or --texels-per-metre");
-  if (choice.tessellate == 0.0f && choice.max_option->count() > 0)
-    console.remark("--tessellate-max has no effect without --tessellate");
+  for (const CLI::Option* option : {choice.max_option, choice.mrays_option}) {
+    if (choice.tessellate == 0.0f && option->count() > 0)
+      console.remark(fmt::format("{} has no effect without --tessellate", option->get_name()));
+  }
 }
 
 Scene tessellatedAsChosen(Scene scene, const BakeOptions& options, const SurfaceChoice& choice,
@@ -58,6 +68,7 @@ Scene tessellatedAsChosen(Scene scene, const BakeOptions& options, const Surface
   TessellateOptions how;
   how.error = choice.tessellate;
   how.max_vertices = std::size_t(choice.tessellate_max);
+  how.max_rays = std::size_t(choice.tessellate_mrays) * 1000000;
   how.order = options.order;
   how.threads = options.threads;
   how.time_s = options.time_s;
@@ -84,7 +95,9 @@ Json tessellateJson(const SurfaceChoice& choice, const TessellateReport& report)
           {"error_before", report.error_before},
           {"error_after", report.error_after},
           {"triangles_above", report.above},
-          {"triangles_at_finest", report.at_finest}};
+          {"triangles_at_finest", report.at_finest},
+          {"rays", report.rays},
+          {"out_of_rays", report.out_of_rays}};
 }
 
 }  // namespace gloam::cli

@@ -14,12 +14,13 @@ namespace gloam::cli {
 
 struct SurfaceChoice {
   float tessellate = 0.0f;  ///< 0: not
-  int tessellate_max = 1000000;
+  int tessellate_max = 1000000, tessellate_mrays = int(TessellateOptions{}.max_rays / 1000000);
   const CLI::Option* max_option = nullptr;
+  const CLI::Option* mrays_option = nullptr;
   const CLI::Option* uv_set_option = nullptr;
 };
 
-/// --texels, --texels-per-metre, --uv-set, --tessellate, --tessellate-max.
+/// --texels, --texels-per-metre, --uv-set, --tessellate, --tessellate-max, --tessellate-rays.
 void addSurfaceOptions(CLI::App& app, BakeOptions& options, SurfaceChoice& choice);
 void remarkUnusedSurfaceOptions(const BakeOptions& options, const SurfaceChoice& choice, Console& console);
 

@@ -56,18 +56,34 @@ struct BakeOptions {
   /// the same scene, with the same bits as without interruption. Any other file of that name is an Error: it is neither
   /// used nor overwritten. Empty: none. Removed at the end.
   std::filesystem::path checkpoint;
+  /// At the end the checkpoint stays, with all of the work: for who has more to do before the result is safe in a file, and
+  /// calls removeBakeCheckpoint() then.
+  bool keep_checkpoint = false;
 };
 
-/// What a bake will take at most, before it starts.
+/// The checkpoint of a bake, with those of its objects where they are baked apart. What is not there is no error.
+void removeBakeCheckpoint(const std::filesystem::path& checkpoint);
+
+/// How the result will be written: as floats or halves (WriteOptions), and compressed or not (CompressOptions).
+struct BakeFileForm {
+  bool half_float = false;
+  int clusters = 0, vectors = 0;  ///< 0 clusters: not compressed
+};
+
+/// What a bake will take, before it starts.
 struct BakeEstimate {
   std::size_t vertices = 0, triangles = 0;
   std::size_t glossy_vertices = 0;  ///< of these, the ones with matrices
   std::size_t texels = 0;           ///< of all lightmaps, without what no triangle covers
   std::size_t rays = 0;  ///< of the first pass: half of all directions are below a vertex's horizon
-  std::size_t memory_bytes = 0, file_bytes = 0;
+  /// At most, beside what the scene and the program take already. Hits that are kept are foretold by a few rays from some
+  /// vertices, and a margin.
+  std::size_t memory_bytes = 0;
   std::size_t least_memory_bytes = 0;  ///< without hits kept for later bounces, which are then traced again
+  std::size_t file_bytes = 0;          ///< at most
 };
-BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options);
+/// Throws Error for options out of range.
+BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options, const BakeFileForm& form = {});
 
 /// What it took, without what a checkpoint brought along.
 struct BakeReport {
@@ -105,6 +121,9 @@ struct TessellateOptions {
   /// what a surface receives that nothing shadows: the root mean square over small lights from everywhere. 0.005 to 1.
   float error = 0.05f;
   std::size_t max_vertices = 1000000;  ///< of the whole scene; what was not split by then stays
+  /// Rays by which errors are measured, of all rounds: bounds the time, with the same mesh on any machine. What was not split
+  /// by then stays.
+  std::size_t max_rays = 2000000000;
   int order = 5;                       ///< bands in which the difference is measured, 3 to 6
   int directions = 0;                  ///< rays by which it is measured at a place, 256 to 65536; 0: by `error`
   int threads = 0;                     ///< as BakeOptions
@@ -115,8 +134,11 @@ struct TessellateReport {
   int passes = 0;
   double error_before = 0.0, error_after = 0.0;  ///< the greatest
   std::size_t above = 0;                         ///< triangles whose error is still above the bound
-  /// Of these, the ones that are as small as they may get: an edge of light and shadow runs through them.
+  /// Of these, the ones that are not worth splitting: an edge of light and shadow runs through them, so that their parts err as
+  /// much as they do, or they are as small as they may get.
   std::size_t at_finest = 0;
+  std::size_t rays = 0;
+  bool out_of_rays = false;  ///< `max_rays` ended it
 };
 /// Splits triangles of rigid meshes where vertices are too sparse to hold the shadow that falls on them (PRT-3): at the
 /// middle of the longest edge, which all triangles around it share, also those of other meshes and beyond seams of

@@ -47,6 +47,7 @@ struct NeighbourhoodOptions {
   std::size_t memory_bytes = 0;      ///< most that the bake may take; 0: what the machine has
   int error_points = 400;            ///< at random in the grid, at which the error is measured; 0: it is not
   std::filesystem::path checkpoint;  ///< as BakeOptions::checkpoint
+  bool keep_checkpoint = false;      ///< as BakeOptions::keep_checkpoint; to be removed by the caller
 };
 
 struct NeighbourhoodEstimate {

@@ -5,11 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace gloam {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::uint32_t kByteOrder = 0x01020304u;
+
+std::atomic<Clock::rep> last_commit{Clock::now().time_since_epoch().count()};
 
 struct Header {
   char magic[8] = {};
@@ -36,6 +41,11 @@ void CheckpointWriter::write(const void* data, std::size_t bytes) {
 void CheckpointWriter::commit() {
   file_.write(&sum_, sizeof sum_);
   file_.commit();
+  last_commit.store(Clock::now().time_since_epoch().count(), std::memory_order_relaxed);
+}
+
+Clock::time_point CheckpointWriter::lastCommit() {
+  return Clock::time_point(Clock::duration(last_commit.load(std::memory_order_relaxed)));
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path, const CheckpointKind& kind,

@@ -5,6 +5,7 @@
 // has them; the header holds a pattern that another byte order would break.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -27,6 +28,9 @@ class CheckpointWriter {
                    const Fingerprint& fingerprint);
   void write(const void* data, std::size_t bytes);
   void commit();
+  /// When this process last kept any work; before that, when it began. Work in stages, each with a file of its own, counts
+  /// from here, so that no more than one interval of all of it is ever at stake.
+  static std::chrono::steady_clock::time_point lastCommit();
 
  private:
   AtomicFile file_;

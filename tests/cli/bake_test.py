@@ -140,9 +140,18 @@ class Bake(CliTest):
         self.assertIn("vertices", self.succeed("bake", SCENE, "--estimate").out)
 
     def test_the_estimate_is_near_the_file(self):
-        expected = self.succeed_json("bake", SCENE, *QUICK, "--estimate")["file_bytes"]
-        size = self.succeed_json("bake", SCENE, *QUICK, "-o", "a.glb")["file_bytes"]
-        self.assertTrue(0.5 < size / expected <= 1.05, (size, expected))
+        for scene, options in (SCENE, []), (SCENE, ["--half"]), (SCENE, ["--pca", "4x6"]), (SCENE, ["--pca", "8x9", "--half"]), \
+                ("builtin:bronze?detail=0.25", ["--half"]), ("builtin:gallery?detail=0.25", ["--texels", "16"]), \
+                ("builtin:passing?detail=0.25", ["--neighbourhood", "auto", "--grid", "5", "--half"]):
+            expected = self.succeed_json("bake", scene, *QUICK, *options, "--estimate")["file_bytes"]
+            size = self.succeed_json("bake", scene, *QUICK, *options, "-o", "a.glb")["file_bytes"]
+            self.assertTrue(0.8 < size / expected <= 1.0, (scene, options, size, expected))
+
+    def test_the_estimate_does_not_do_the_work(self):
+        said = self.succeed("bake", "builtin:gallery?detail=0.25", "--tessellate", "0.05", "--tessellate-max", "9000", "--estimate")
+        self.assertIn("as they are: --tessellate adds some, up to 9,000 in all", said.err)
+        self.assertNotIn("tessellated", said.err)
+        self.assertIn("at most", said.out)
 
     def test_mirrors_throw_light(self):
         light = []
@@ -186,6 +195,8 @@ class Bake(CliTest):
             options = ["--memory", str(cap)] if cap else []
             used = self.peak_bytes(*command, *options, "--quiet", "-o", name)
             self.assertLess(used - program, cap or estimate["memory_bytes"])
+            if not cap:
+                self.assertGreater(used - program, estimate["memory_bytes"] / 1.6, "an estimate that is worth something")
         self.assertEqual(self.path("free.glb").read_bytes(), self.path("capped.glb").read_bytes())
 
     def test_a_mesh_that_is_no_surface_is_baked(self):
@@ -236,6 +247,13 @@ f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
         self.assertIsNone(self.succeed_json("bake", scene, *QUICK, "-o", "c.glb")["tessellated"])
         self.assertIn("--tessellate-max has no effect", self.succeed("bake", scene, *QUICK, "--tessellate-max", "900", "-o", "c.glb").err)
 
+    def test_splitting_is_bounded_in_time(self):
+        command = ["bake", "builtin:gallery?detail=0.25", *QUICK, "--kind", "ds", "--tessellate", "0.02"]
+        split = self.succeed_json(*command, "--tessellate-rays", "4", "-o", "a.glb")["tessellated"]
+        self.assertTrue(split["out_of_rays"])
+        self.assertLess(split["rays"], 12e6)
+        self.assertIn("--tessellate-rays allows no more", self.succeed(*command, "--tessellate-rays", "4", "-o", "a.glb").err)
+
     def test_threads_do_not_change_the_bits(self):
         for name, threads in ("a.glb", 1), ("b.glb", 2):
             self.succeed("bake", SCENE, *QUICK, "--threads", threads, "-o", name)
@@ -282,8 +300,33 @@ f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
                 ("--uv-set", 8), ("--uv-set", -1), ("--tessellate", 0), ("--tessellate", 2), ("--tessellate-max", 2), \
                 ("--glossy-order", 7), ("--glossy-light-order", 2), ("--bake-gloss", 0), ("--error", 0), ("--error", 2), ("--caustics", "yes"):
             self.refuse("bake", SCENE, option, value, "-o", "a.glb", says=[option, value if value != 1e6 else "1000000"])
-        self.refuse("bake", SCENE, "--order", 4, "--glossy", "on", "--glossy-light-order", 5, "-o", "a.glb",
-                    says="glossy_light_order is 5; expected 3 to 4")
+        for option in "--memory", "--pca", "--neighbourhood", "--grid":
+            self.refuse("bake", SCENE, option, "", "-o", "a.glb", says=option)
+
+    def test_options_that_contradict_each_other(self):
+        def refuse(*arguments, says):
+            self.refuse("bake", SCENE, *arguments, "-o", "a.glb", says=says)
+        refuse("--order", 4, "--glossy", "on", "--glossy-light-order", 5, says=["--glossy-light-order", "5 bands of light", "4 of --order"])
+        refuse("--glossy-order", 3, "--glossy-light-order", 5, says=["--glossy-light-order", "5 bands of light", "3 of --glossy-order"])
+        refuse("--order", 3, "--glossy-order", 5, "--glossy-light-order", 5, says=["--glossy-light-order", "3 of --order"])
+        refuse("--error", 0.01, "--directions", 512, says=["--error", "--directions 512", "768 or more"])
+        refuse("--kind", "du", "--tessellate", 0.1, says=["--tessellate", "no shadows"])
+
+    def test_options_that_change_nothing_are_told(self):
+        def remarks(*arguments, scene=SCENE):
+            return self.succeed("bake", scene, *QUICK, *arguments, "-o", "a.glb").err
+        few = ["--directions", "1024"]
+        self.assertIn("--bounce-directions has no effect with --error", remarks(*few, "--error", "0.1"))
+        self.assertIn("--bounce-directions are of the same set: 256", remarks("--bounce-directions", "2048"))
+        self.assertIn("--bake-gloss has no effect here: no mesh mirrors", remarks("--bake-gloss", "10"))
+        self.assertNotIn("effect", remarks("--bake-gloss", "10", "--glossy", "on", "--bounces", "1"))
+        self.assertIn("--bake-gloss has no effect with --glossy off", remarks("--bake-gloss", "10", "--glossy", "off"))
+        self.assertIn("--time has no effect here: the scene has no animation", remarks("--time", "3"))
+        self.assertIn("--tessellate-rays has no effect without --tessellate", remarks("--tessellate-rays", "3"))
+        grids = remarks("--kind", "du", "--neighbourhood", "vane", "--grid", "4", scene="builtin:passing?detail=0.25")
+        self.assertNotIn("--directions has no effect", grids, "grids take them")
+
+    def test_files_and_folders_that_cannot_be_written(self):
         self.refuse("bake", SCENE, "-o", "a.png", says=".glb")
         self.refuse("bake", SCENE, "-o", "no/a.glb", says="no/a.glb")
 

@@ -206,14 +206,16 @@ void bakeShadowed(const Scene& scene, const PosedScene& posed, const BakePoints&
   const PassSettings settings{.bounces = state.bounces,
                               .caustics = options.caustics,
                               .error = options.error,
-                              .kept_bytes = keptHitsBytes(estimateBake(scene, options), options)};
+                              .kept_bytes = keptHitsBytes(leastMemory(scene, options), options),
+                              .turned = true};
   BakePasses passes(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
   const double glossy_share = double(state.glossy.rows()) / double(std::max<std::size_t>(1, points.size()));
   BakeMeter meter(progress, options, fingerprint, state, passWork(tables, state.bounces, glossy_share));
   runPasses(passes, state, meter, report);
   std::error_code ignored;
   // Objects that are done wait for the others.
-  if (!options.checkpoint.empty() && !options.apart) std::filesystem::remove(options.checkpoint, ignored);
+  if (!options.checkpoint.empty() && !options.apart && !options.keep_checkpoint)
+    std::filesystem::remove(options.checkpoint, ignored);
 }
 
 }  // namespace
@@ -251,7 +253,7 @@ static Scene bakeOne(const Scene& scene, const BakeOptions& options, const Progr
 Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress,
                    BakeReport* report) {
   checkOptions(options);
-  if (options.memory_bytes > 0) keptHitsBytes(estimateBake(scene, options), options);
+  if (options.memory_bytes > 0) keptHitsBytes(leastMemory(scene, options), options);
   BakeReport local;
   BakeReport& done = report ? *report : local;
   done = {};

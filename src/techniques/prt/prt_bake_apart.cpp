@@ -83,9 +83,10 @@ void addReport(const BakeReport& one, BakeReport& sum) {
   sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
-std::filesystem::path checkpointOf(const BakeOptions& options, int object) {
-  if (options.checkpoint.empty()) return {};
-  return options.checkpoint.string() + (object == 0 ? "" : fmt::format(".{}", object));
+/// Objects are baked one after the other: where the file of one is missing, so are those of all after it.
+std::filesystem::path checkpointOf(const std::filesystem::path& checkpoint, int object) {
+  if (checkpoint.empty()) return {};
+  return checkpoint.string() + (object == 0 ? "" : fmt::format(".{}", object));
 }
 
 }  // namespace
@@ -143,16 +144,25 @@ Scene bakeApart(Scene scene, const BakeOptions& options, const Progress& progres
       };
     }
     BakeOptions one = options;
-    one.checkpoint = checkpointOf(options, object);
+    one.checkpoint = checkpointOf(options.checkpoint, object);
     BakeReport of_one;
     takeTransfer(bake(partOf(scene, object_of_node, object), one, part, of_one), object, scene);
     addReport(of_one, report);
     done += vertices[std::size_t(object)];
   }
-  std::error_code ignored;
-  for (int object = 0; object < objects && !options.checkpoint.empty(); ++object)
-    std::filesystem::remove(checkpointOf(options, object), ignored);
+  if (!options.checkpoint.empty() && !options.keep_checkpoint) removeBakeCheckpoint(options.checkpoint);
   return scene;
 }
 
 }  // namespace gloam::prt
+
+namespace gloam {
+
+void removeBakeCheckpoint(const std::filesystem::path& checkpoint) {
+  std::error_code ignored;
+  if (checkpoint.empty()) return;
+  std::filesystem::remove(checkpoint, ignored);
+  for (int object = 1; std::filesystem::remove(prt::checkpointOf(checkpoint, object), ignored);) ++object;
+}
+
+}  // namespace gloam

@@ -51,7 +51,7 @@ int levelsFor(int count, int bounce_count) {
 
 int stepsFor(int count) {
   int steps = 1;
-  while (steps < 10 && (count >> steps) >= kFirstStep * 3 / 4) ++steps;
+  while (steps < 10 && (count >> steps) >= kLeastDirectionsOfError / 2) ++steps;
   return steps;
 }
 

@@ -66,6 +66,8 @@ struct DirectionTables {
 /// what is asked for, so it may be up to 1.5 times larger or smaller. In steps, batches double the tiles from about
 /// kFirstStep directions on.
 inline constexpr int kFirstStep = 512;
+/// With fewer there is one step, and nothing to hold it against.
+inline constexpr int kLeastDirectionsOfError = 2 * (kFirstStep * 3 / 4);
 DirectionTables makeDirectionTables(int order, int count, int bounce_count, bool in_steps = false);
 
 }  // namespace gloam::prt

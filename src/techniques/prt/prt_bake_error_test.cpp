@@ -82,6 +82,55 @@ TEST(PrtBakeError, TheFirstBounceIsAsGood) {
   EXPECT_LT(loose.bounce_rays, tight.bounce_rays);
 }
 
+/// A floor with two balls of metal close to each other, which throw light on it and on one another.
+Scene metalScene(float roughness) {
+  Scene scene = sceneOf(gridMesh(2.0f, 6));
+  for (const float x : {-0.55f, 0.55f}) {
+    Mesh ball = sphereMesh(6, 12);
+    for (glm::vec3& p : ball.positions) p = 0.5f * p + glm::vec3(x, 0.52f, 0.0f);
+    ball.material = int(scene.materials.size());
+    addMesh(scene, ball);
+  }
+  Material metal;
+  metal.base_color = {1.0f, 0.8f, 0.5f, 1.0f};
+  metal.metallic = 1.0f;
+  metal.roughness = roughness;
+  scene.materials.push_back(metal);
+  for (std::size_t m = 1; m < 3; ++m) scene.meshes[m].material = int(scene.materials.size()) - 1;
+  return scene;
+}
+
+// Light that comes by way of metal: followed from mirror to mirror, or sent on by matrices; to vectors and to matrices. All
+// of it is as well known as is asked for.
+TEST(PrtBakeError, LightByWayOfMetalIsAsGood) {
+  for (const float roughness : {0.15f, 0.6f}) {
+    const Scene scene = metalScene(roughness);
+    for (const GlossyMeshes glossy : {GlossyMeshes::kNone, GlossyMeshes::kShiny}) {
+      BakeOptions options = interreflected(2, 3, 32768, 32768);
+      options.glossy = glossy;
+      const Scene truth = bakeTransfer(scene, options);
+      double last_rays = 0.0;
+      for (const float bound : {0.03f, 0.01f}) {
+        BakeOptions adaptive = until(bound, options);
+        adaptive.bounce_directions = 256;
+        BakeReport report;
+        const Scene baked = bakeTransfer(scene, adaptive, {}, &report);
+        EXPECT_LT(errorOf(baked, truth).indirect, double(bound)) << roughness << " " << int(glossy);
+        EXPECT_GT(double(report.bounce_rays), 1.2 * last_rays);
+        last_rays = double(report.bounce_rays);
+      }
+    }
+  }
+}
+
+TEST(PrtBakeError, OneStepOfDirectionsTellsNoError) {
+  BakeOptions options = until(0.01f, shadowed(3));
+  options.directions = 512;
+  EXPECT_THROW(bakeTransfer(crowdedScene(), options), gloam::Error);
+  options.kind = TransferKind::kUnshadowed;  // takes none
+  EXPECT_NO_THROW(bakeTransfer(crowdedScene(), options));
+}
+
 TEST(PrtBakeError, PointsWithoutShadowTakeFewDirections) {
   BakeReport report;
   bakeTransfer(sceneOf(sphereMesh(8, 16)), until(0.001f, shadowed(5)), {}, &report);

@@ -19,16 +19,12 @@ namespace {
 
 constexpr float kPi = sampling::kPi;
 
-// As kSteepestFall (prt_bake_passes.cpp).
-constexpr float kSteepestFall = 0.45f;
+}  // namespace
 
-// The share of the hemisphere that the smaller set stands for is known better from the first pass.
 float directionWeight(float known, double seen, std::size_t tiles) {
   const float each = DirectionTables::solidAngle(tiles);
   return seen > 0.0 ? each * std::clamp(known / (each * float(seen)), 0.5f, 2.0f) : each;
 }
-
-}  // namespace
 
 void packHits(const std::vector<RawHit>& raw, std::vector<GatheredHit>& hits, PointHits& point) {
   float largest = 0.0f;
@@ -78,6 +74,21 @@ void BakePasses::addHits(std::size_t point, const trace::RayPacket& rays, const 
   }
 }
 
+const std::uint16_t* BakePasses::blockedOf(std::size_t point, const BakeState& state, std::size_t first,
+                                           std::size_t end, BounceSums& sums) const {
+  const RaySite& site = state.sites[point];
+  if (state.bounce_used.empty() || end <= site.tiles) return &state.blocked[point * state.bounce_tiles];
+  thread_local std::vector<std::uint16_t> blocked;
+  blocked.resize(state.bounce_tiles);  // in steps, bounces have all tiles: the numbers are the same
+  const glm::mat3 turn = turnOf(point);
+  for (const DirectionBatch& batch : tables_.batches) {
+    if (batch.first_bounce == first && batch.end_bounce == end)
+      sums.asked += traceBlocked(tracer_, tables_, batch, site.origin, points_.normals[point] * turn, turn,
+                                 blocked.data());
+  }
+  return blocked.data();
+}
+
 // What the blocked directions of a point meet, of some of the bounce tiles.
 void BakePasses::collectHits(std::size_t point, const BakeState& state, std::size_t first, std::size_t end,
                              PointWork& work) const {
@@ -111,7 +122,7 @@ namespace {
 
 void addSkies(std::span<const SkyHit> skies, int pass, int order, std::size_t stride, float* row) {
   for (const SkyHit& sky : skies) {
-    if (int(sky.mirrors) != pass) continue;
+    if (pass != kAllPasses && int(sky.mirrors) != pass) continue;
     const sh::Sh y = sh::evaluate(order, sky.direction);
     for (int color = 0; color < 3; ++color) {
       const float weight = sky.cosine * sky.throughput[color];
@@ -141,6 +152,7 @@ void BakePasses::addBatch(std::size_t point, const BakeState& state, const Direc
   all.sums.cosine += of_batch.sums.cosine;
   all.sums.rays += of_batch.sums.rays;
   all.sums.followed += of_batch.sums.followed;
+  all.sums.asked += of_batch.sums.asked;
 }
 
 void BakePasses::bounceAgain(std::size_t point, const BakeState& state, PointWork& work) const {
@@ -151,7 +163,7 @@ void BakePasses::bounceAgain(std::size_t point, const BakeState& state, PointWor
 }
 
 // How many bounce tiles a point uses: batch after batch is added until the transfer of the first bounce is known as well as
-// the first pass is.
+// the first pass is. All that comes by way of mirrors counts as the light that it begins with, whichever bounce brings it.
 void BakePasses::bounceUntilKnown(std::size_t point, BakeState& state, PointWork& work) const {
   const RaySite& site = state.sites[point];
   const std::size_t stride = rowStride(state.coefficients);
@@ -162,14 +174,13 @@ void BakePasses::bounceUntilKnown(std::size_t point, BakeState& state, PointWork
   float error = 0.0f;
   std::size_t used = 0;
   for (const DirectionBatch& batch : tables_.batches) {
-    if (std::uint32_t(batch.end) > site.tiles) break;
     addBatch(point, state, batch, of_batch, work);
     batch_hits = {};
     packHits(of_batch.hits, batch_hits.hits, batch_hits.points[0]);
     std::ranges::fill(here, 0.0f);
-    gatherHits(sourcesOf(state), state.coefficients, batch_hits.hits, batch_hits.points[0].scale,
+    gatherHits(sourcesOfAll(state), state.coefficients, batch_hits.hits, batch_hits.points[0].scale,
                here.data());
-    addSkies(of_batch.skies, state.pass, tables_.order, stride, here.data());
+    addSkies(of_batch.skies, kAllPasses, tables_.order, stride, here.data());
     const std::size_t count = batch.end_bounce - batch.first_bounce;
     if (used > 0) {
       const float a = directionWeight(site.blocked_cosine, cosine_before, used),
@@ -227,7 +238,7 @@ std::size_t BakePasses::bounceBlock(std::size_t block, BakeState& state) {
         bounceAgain(point, state, work);
       }
       used = state.bounce_used.empty() ? state.bounce_tiles : state.bounce_used[point];
-      rays += work.sums.rays + work.sums.followed;
+      rays += work.sums.rays + work.sums.followed + work.sums.asked;
     }
     packPoint(point, state, std::max<std::size_t>(1, used), work, fresh, i);
   }

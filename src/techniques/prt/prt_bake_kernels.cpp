@@ -33,8 +33,8 @@ HWY_INLINE std::uint32_t bitsOf(Floats d, hn::Mask<Floats> mask) {
 
 struct Normal {
   Vector x, y, z;
-  HWY_INLINE Normal(Floats d, const float* n)
-      : x(hn::Set(d, n[0])), y(hn::Set(d, n[1])), z(hn::Set(d, n[2])) {}
+  HWY_INLINE Normal(Floats d, const float* n, std::size_t stride = 1)
+      : x(hn::Set(d, n[0])), y(hn::Set(d, n[stride])), z(hn::Set(d, n[2 * stride])) {}
   HWY_INLINE Vector dot(Vector dx, Vector dy, Vector dz) const {
     return hn::MulAdd(z, dz, hn::MulAdd(y, dy, hn::Mul(x, dx)));
   }
@@ -63,12 +63,14 @@ HWY_INLINE void forTilesAbove(const TableView& tables, const Normal& n, const Vi
 
 // blocked is zero before; packet has its origin.
 std::size_t TraceBlocked(const trace::Tracer& tracer, const TableView& tables, const float* normal,
-                         trace::RayPacket& packet, std::uint16_t* blocked) {
+                         const float* turn, trace::RayPacket& packet, std::uint16_t* blocked) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
   const std::size_t lanes = hn::Lanes(d);
   const Normal n(d, normal);
   const Vector infinite = hn::Set(d, __builtin_inff());
+  // Rows of the rotation, whose columns stand one after the other.
+  const Normal to_x(d, turn, 3), to_y(d, turn + 1, 3), to_z(d, turn + 2, 3);
   trace::LaneMask mask;
   std::size_t rays = 0;
   forTilesAbove(tables, n, [&](std::size_t tile) HWY_ATTR {
@@ -79,9 +81,9 @@ std::size_t TraceBlocked(const trace::Tracer& tracer, const TableView& tables, c
       const Vector y = hn::Load(d, s + kTileSize + k);
       const Vector z = hn::Load(d, s + 2 * kTileSize + k);
       const auto is_above = hn::Gt(n.dot(x, y, z), hn::Zero(d));
-      hn::Store(x, d, packet.direction_x + k);
-      hn::Store(y, d, packet.direction_y + k);
-      hn::Store(z, d, packet.direction_z + k);
+      hn::Store(to_x.dot(x, y, z), d, packet.direction_x + k);
+      hn::Store(to_y.dot(x, y, z), d, packet.direction_y + k);
+      hn::Store(to_z.dot(x, y, z), d, packet.direction_z + k);
       hn::Store(infinite, d, packet.t_far + k);
       hn::Store(hn::BitCast(di, hn::VecFromMask(d, is_above)), di, mask.lane + k);
       above |= bitsOf(d, is_above) << k;
@@ -251,12 +253,13 @@ HWY_EXPORT(KernelTarget);
 
 std::size_t traceBlocked(const trace::Tracer& tracer, const DirectionTables& tables,
                          const DirectionBatch& batch, const glm::vec3& origin, const glm::vec3& normal,
-                         std::uint16_t* blocked) {
+                         const glm::mat3& turn, std::uint16_t* blocked) {
   trace::RayPacket packet;
   packet.setOrigin(origin);
   blocked += batch.first;
   std::memset(blocked, 0, std::size_t(batch.end - batch.first) * sizeof *blocked);
-  return HWY_DYNAMIC_DISPATCH(TraceBlocked)(tracer, tables.view(batch), &normal.x, packet, blocked);
+  return HWY_DYNAMIC_DISPATCH(TraceBlocked)(tracer, tables.view(batch), &normal.x, &turn[0].x, packet,
+                                            blocked);
 }
 
 int tilesAbove(const DirectionTables& tables, const glm::vec3& normal, std::int32_t* tiles,

@@ -15,12 +15,12 @@
 
 namespace gloam::prt {
 
-/// Shadow rays from one point, along one batch of directions. blocked[tile], for the tiles of the batch, gets a bit for every
-/// direction above the horizon of `normal` that meets something; tiles wholly below are not traced and get 0. Returns the
-/// number of rays.
+/// Shadow rays from one point, along one batch of directions, each turned by `turn`. blocked[tile], for the tiles of the batch,
+/// gets a bit for every direction that meets something and is above the horizon of `normal`, which is in the axes of the set;
+/// tiles wholly below are not traced and get 0. Returns the number of rays.
 std::size_t traceBlocked(const trace::Tracer& tracer, const DirectionTables& tables,
                          const DirectionBatch& batch, const glm::vec3& origin, const glm::vec3& normal,
-                         std::uint16_t* blocked);
+                         const glm::mat3& turn, std::uint16_t* blocked);
 
 /// The packets that traceBlocked would trace of the first batch, without tracing: tiles and the bits of directions above
 /// the horizon. For the benchmark. Returns how many tiles; both arrays hold as many elements as the batch has tiles.

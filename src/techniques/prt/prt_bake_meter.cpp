@@ -6,6 +6,8 @@
 
 #include <numeric>
 
+#include "scene/checkpoint_file.h"
+
 namespace gloam::prt {
 namespace {
 
@@ -27,13 +29,12 @@ BakeMeter::BakeMeter(const Progress& progress, const BakeOptions& options, const
                      BakeState& state, std::vector<double> pass_work)
     : progress_(progress),
       checkpoint_(options.checkpoint),
-      keep_(options.apart),
+      keep_(options.apart || options.keep_checkpoint),
       fingerprint_(fingerprint),
       state_(state),
       pass_work_(std::move(pass_work)),
       total_work_(std::accumulate(pass_work_.begin(), pass_work_.end(), 0.0)),
-      start_(Clock::now()),
-      last_save_(start_) {}
+      start_(Clock::now()) {}
 
 void BakeMeter::beginPass() {
   pass_start_ = Clock::now();
@@ -67,20 +68,20 @@ void BakeMeter::save() {
   if (checkpoint_.empty()) return;
   const auto begin = Clock::now();
   writeCheckpoint(checkpoint_, fingerprint_, state_);
-  last_save_ = Clock::now();
   // Large states are written less often: at most a tenth of the time goes into it.
-  save_interval_ = std::max<Clock::duration>(std::chrono::seconds(20), 10 * (last_save_ - begin));
+  save_interval_ = std::max<Clock::duration>(std::chrono::seconds(20), 10 * (Clock::now() - begin));
 }
 
 bool BakeMeter::blockDone(std::size_t rays) {
   rays_ += rays;
   ++blocks_;
+  fresh_ = true;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock && !stopped_) {
     const auto now = Clock::now();
     if (progress_.stopRequested()) stopped_ = true;
     if (!stopped_ && now - last_report_ > kReportInterval) report(now);
-    if (!stopped_ && now - last_save_ > save_interval_) save();
+    if (!stopped_ && now - CheckpointWriter::lastCommit() > save_interval_) save();
   }
   return !stopped_;
 }

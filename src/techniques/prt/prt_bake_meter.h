@@ -26,9 +26,9 @@ class BakeMeter {
   bool blockDone(std::size_t rays);
   /// Keeps what is done and throws Interrupted.
   [[noreturn]] void interrupt();
-  /// After the last pass: an object that is baked apart is kept until all are.
+  /// After the last pass: all of it is kept where other work is still to come.
   void lastPassDone() {
-    if (keep_) save();
+    if (keep_ && fresh_) save();
   }
 
  private:
@@ -45,8 +45,9 @@ class BakeMeter {
   double total_work_ = 0.0, work_at_start_ = -1.0;
   std::atomic<std::size_t> rays_{0}, blocks_{0};
   std::atomic<bool> stopped_{false};
+  std::atomic<bool> fresh_{false};  ///< the file does not hold all of it yet
   std::mutex mutex_;
-  Clock::time_point start_, pass_start_, last_report_, last_save_;
+  Clock::time_point start_, pass_start_, last_report_;
   Clock::duration save_interval_ = std::chrono::seconds(20);
 };
 

@@ -24,10 +24,6 @@ namespace gloam::prt {
 namespace {
 
 constexpr float kPi = sampling::kPi;
-/// A standard error is not believed to have fallen to less than this part of what the half as many directions had: twice
-/// the directions bring it to 0.6 on average (an error of n^-3/4), and a lucky estimate would end a point too soon.
-constexpr float kSteepestFall = 0.45f;
-
 float normOfOpenPoint(int order) {
   float sum = 0.0f;
   const sh::Sh open = sh::rotateZonal(sh::clampedCosine(order), {0.0f, 0.0f, 1.0f});
@@ -63,6 +59,8 @@ BakePasses::BakePasses(const Scene& scene, const PosedScene& posed, const BakePo
     surface.mirrors = settings.caustics && greatestSpecular(scene, material) >= kShinySpecular;
     surfaces_.push_back(surface);
   }
+  if (settings.turned)
+    turns_ = &Turns::of(std::max(tables.order, glossy ? glossy->layout.visibilityOrder() : 0));
   most_mirrors_ = std::uint32_t(std::min(settings.bounces, kMostMirrors));
   open_norm_ = normOfOpenPoint(tables.order);
   probes_ = sampling::fibonacciSphere(128);
@@ -94,7 +92,7 @@ void BakePasses::projectPoints(const DirectionBatch& batch, std::span<const std:
   float* out[kProjectedTogether];
   for (std::size_t k = 0; k < kProjectedTogether; ++k) {
     const std::size_t p = points[std::min(k, points.size() - 1)];  // fewer than four repeat the last
-    normals[k] = points_.normals[p];
+    normals[k] = points_.normals[p] * turnOf(p);
     bits[k] = blocked + (p - first) * tiles;
     out[k] = k < points.size() ? sums + k * sh::kMaxCoefficients : unused;
   }
@@ -111,8 +109,9 @@ std::size_t BakePasses::shadowBatch(const DirectionBatch& batch, BakeState& stat
   for (std::size_t a = 0; a < work.active_count; ++a) {
     const std::size_t i = work.active[a];
     points[a] = work.begin + i;
-    rays += traceBlocked(tracer_, tables_, batch, state.sites[points[a]].origin, points_.normals[points[a]],
-                         &work.blocked[i * tiles]);
+    const glm::mat3 turn = turnOf(points[a]);
+    rays += traceBlocked(tracer_, tables_, batch, state.sites[points[a]].origin,
+                         points_.normals[points[a]] * turn, turn, &work.blocked[i * tiles]);
   }
   for (std::size_t a = 0; a < work.active_count; a += kProjectedTogether) {
     const std::span<const std::size_t> together(
@@ -160,9 +159,11 @@ void BakePasses::finishShadow(std::size_t point, const ShadowWork& work, std::si
   site.blocked_cosine = solid_angle * std::sqrt(4.0f * kPi) * work.sums[i][0];
   if (state.glossy.has(point)) writeVisibility(point, &work.visibility[i * glossy_->stride], state);
   const sh::Sh unshadowed = sh::rotateZonal(sh::clampedCosine(tables_.order), points_.normals[point]);
+  float blocked[sh::kMaxCoefficients];
+  std::copy_n(work.sums[i], coefficients, blocked);
+  if (const auto* turn = coefficientTurn(point)) turn->apply(tables_.order, work.sums[i], 1, blocked, 1);
   float* direct = &state.direct[point * coefficients];
-  for (std::size_t c = 0; c < coefficients; ++c)
-    direct[c] = unshadowed[int(c)] - solid_angle * work.sums[i][c];
+  for (std::size_t c = 0; c < coefficients; ++c) direct[c] = unshadowed[int(c)] - solid_angle * blocked[c];
   for (std::size_t t = 0; t < state.bounce_tiles; ++t) {
     state.blocked[point * state.bounce_tiles + t] =
         work.blocked[i * tiles + std::size_t(tables_.bounce_tile[t])];
@@ -200,6 +201,13 @@ GatherSources BakePasses::sourcesOf(const BakeState& state) const {
       source = {state.earlier[std::size_t(mirrors) - 1].data(), false};
     }
   }
+  return sources;
+}
+
+// M^0 for all, however many mirrors are on the way.
+GatherSources BakePasses::sourcesOfAll(const BakeState& state) const {
+  GatherSources sources;
+  for (GatherSource& source : sources.by_mirrors) source = {state.direct.data(), true};
   return sources;
 }
 

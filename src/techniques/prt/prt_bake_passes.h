@@ -14,6 +14,7 @@
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_state.h"
 #include "techniques/prt/prt_bake_texels.h"
+#include "techniques/prt/prt_bake_turn.h"
 #include "trace/tracer.h"
 
 namespace gloam::prt {
@@ -27,6 +28,7 @@ struct PassSettings {
   bool caustics = false;  ///< lobes that matrices cannot show are followed
   float error = 0.0f;     ///< BakeOptions::error
   std::size_t kept_bytes = kKeptHitsBytes;
+  bool turned = false;  ///< each point has the set of directions turned by itself (prt_bake_turn.h)
 };
 
 /// Numbers of points, so many each: of all, or of those that have a row.
@@ -55,6 +57,15 @@ class BakePasses {
   void fillHidden(const BakeState& state, const PointRows& rows) const;
 
  private:
+  /// From the axes of the set of directions to the world, at a point.
+  glm::mat3 turnOf(std::size_t point) const {
+    return turns_ == nullptr ? glm::mat3(1.0f)
+                             : turns_->at(points_.positions[point], points_.normals[point]).matrix;
+  }
+  const sh::HighRotation* coefficientTurn(std::size_t point) const {
+    return turns_ == nullptr ? nullptr
+                             : &turns_->at(points_.positions[point], points_.normals[point]).coefficients;
+  }
   glm::vec3 unobstructed(const glm::vec3& from, const glm::vec3& to) const;
   glm::vec3 startAtVertex(std::size_t point) const;
   glm::vec3 startOnFace(std::size_t point, std::uint32_t face, float share) const;
@@ -74,14 +85,20 @@ class BakePasses {
     double cosine = 0.0;       ///< of the directions with the normal
     std::size_t rays = 0;      ///< blocked directions
     std::size_t followed = 0;  ///< rays from mirrors
+    std::size_t asked = 0;     ///< rays of blockedOf
   };
   /// Traces the blocked directions of a point among some bounce tiles: visit(rays, found, tile, lanes, cosines) for each
   /// tile that has some.
   template <class Visit>
   void traceBounceRays(std::size_t point, const BakeState& state, std::size_t first, std::size_t end,
                        BounceSums& sums, const Visit& visit) const;
+  /// Which of a point's directions are blocked, by bounce tile. Light that mirrors throw may want more directions than its shadow
+  /// did: those are then found here, from `first` on to `end`.
+  const std::uint16_t* blockedOf(std::size_t point, const BakeState& state, std::size_t first,
+                                 std::size_t end, BounceSums& sums) const;
   bool isBack(int instance, int triangle, float along_normal) const;
   GatherSources sourcesOf(const BakeState& state) const;
+  GatherSources sourcesOfAll(const BakeState& state) const;
 
   // prt_bake_hits.cpp
   struct PointWork;
@@ -130,11 +147,21 @@ class BakePasses {
   float addVisibility(const DirectionBatch& batch, const std::uint16_t* blocked, float* sums) const;
   void writeVisibility(std::size_t point, const float* sums, BakeState& state) const;
   std::size_t glossyBounceBlock(std::size_t block, BakeState& state);
-  std::size_t traceGlossyHits(std::size_t point, const BakeState& state, KeptHits& hits) const;
+  void sumGlossy(std::span<const GlossyHit> hits, std::span<const SkyHit> skies, const GatherSources& sources,
+                 int sky_pass, const GlossyState& glossy, float* vector, float* matrix) const;
+  // prt_glossy_hits.cpp
+  struct GlossyWork;
+  void collectGlossy(std::size_t point, const BakeState& state, std::size_t first, std::size_t end,
+                     GlossyWork& work) const;
+  void collectGlossyOf(std::size_t point, BakeState& state, GlossyWork& work) const;
+  void glossyUntilKnown(std::size_t point, BakeState& state, GlossyWork& work) const;
+  void packGlossy(std::size_t point, const BakeState& state, std::size_t tiles, GlossyWork& work,
+                  KeptHits& hits) const;
   void addGlossyHits(std::size_t point, const trace::RayPacket& rays, const trace::HitPacket& found,
                      std::size_t tile, std::uint32_t lanes, const float* cosines,
                      std::vector<GlossyHit>& hits, std::vector<MirrorRay>& onward) const;
   GlossyHit glossyHit(const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) const;
+  void turnRows(std::size_t point, const float* matrix, float* to) const;
   void gatherGlossy(std::size_t point, std::span<const GlossyHit> hits, std::span<const SkyHit> skies,
                     BakeState& state) const;
 
@@ -144,6 +171,7 @@ class BakePasses {
   const DirectionTables& tables_;
   const PassSettings settings_;
   const GlossyTables* glossy_;
+  const Turns* turns_ = nullptr;    ///< null: all points have the same directions
   std::uint32_t most_mirrors_ = 0;  ///< that are worth following
   float open_norm_ = 1.0f;          ///< of the transfer of a point that sees all of the sky
   struct Surface {
@@ -196,22 +224,24 @@ struct BakePasses::PointWork {
 template <class Visit>
 void BakePasses::traceBounceRays(std::size_t point, const BakeState& state, std::size_t first,
                                  std::size_t end, BounceSums& sums, const Visit& visit) const {
+  const glm::mat3 turn = turnOf(point);
   const glm::vec3& normal = points_.normals[point];
   trace::RayPacket rays;
   trace::LaneMask mask;
   trace::HitPacket found;
   rays.setOrigin(state.sites[point].origin);
+  const std::uint16_t* blocked = blockedOf(point, state, first, end, sums);
   for (std::size_t t = first; t < end; ++t) {
-    const std::uint32_t lanes = state.blocked[point * state.bounce_tiles + t];
+    const std::uint32_t lanes = blocked[t];
     if (lanes == 0) continue;
     const std::int32_t tile = tables_.bounce_tile[t];
-    const float* directions = tables_.tileDirections(tile);
-    std::copy_n(directions, kTileSize, rays.direction_x);
-    std::copy_n(directions + kTileSize, kTileSize, rays.direction_y);
-    std::copy_n(directions + 2 * kTileSize, kTileSize, rays.direction_z);
     float cosines[kTileSize];
     for (int k = 0; k < kTileSize; ++k) {
-      cosines[k] = std::max(0.0f, glm::dot(normal, tables_.direction(tile, k)));
+      const glm::vec3 direction = turn * tables_.direction(tile, k);
+      rays.direction_x[k] = direction.x;
+      rays.direction_y[k] = direction.y;
+      rays.direction_z[k] = direction.z;
+      cosines[k] = std::max(0.0f, glm::dot(normal, direction));
       if (lanes >> k & 1u) sums.cosine += double(cosines[k]);
     }
     mask.set(lanes);

@@ -136,8 +136,9 @@ std::size_t BakePasses::digOut(std::size_t point, RaySite& site, std::size_t fir
   // Such points have much of the hemisphere blocked; the others are spared the question.
   if (site.blocked_cosine <= kBuriedBySheets * sampling::kPi || !findBetterPlace(point, site)) return 0;
   const DirectionBatch& batch = tables_.batches[0];
-  const std::size_t rays = traceBlocked(tracer_, tables_, batch, site.origin, points_.normals[point],
-                                        blocked + (point - first) * std::size_t(tables_.tiles));
+  const glm::mat3 turn = turnOf(point);
+  const std::size_t rays = traceBlocked(tracer_, tables_, batch, site.origin, points_.normals[point] * turn,
+                                        turn, blocked + (point - first) * std::size_t(tables_.tiles));
   projectPoints(batch, {&point, 1}, first, blocked, sums);
   return rays;
 }

@@ -12,9 +12,6 @@ namespace gloam {
 namespace prt {
 namespace {
 
-/// What the program itself takes: code, libraries, a stack a thread.
-constexpr std::size_t kProgramBytes = std::size_t(24) << 20;
-
 void checkRange(const char* name, int value, int low, int high) {
   if (value < low || value > high) {
     throw Error("bake", fmt::format("{} is {}; expected {} to {}", name, value, low, high));
@@ -52,6 +49,8 @@ void checkOptions(const BakeOptions& options) {
   const float error = options.error;
   if (error != 0.0f && !(error >= 1.0e-5f && error <= 1.0f))
     throw Error("bake", fmt::format("error is {}; expected 1e-5 to 1, or 0", error));
+  if (error > 0.0f && options.kind != TransferKind::kUnshadowed)
+    checkRange("directions with error", options.directions, kLeastDirectionsOfError, 65536);
   if (options.kind != TransferKind::kInterreflected) return;
   checkRange("bounces", options.bounces, 1, 64);
   checkRange("bounce_directions", options.bounce_directions, 64, 65536);
@@ -62,13 +61,10 @@ int bouncesOf(const BakeOptions& options) {
 }
 
 DirectionTables tablesFor(const BakeOptions& options) {
-  // Where each point takes as many directions as it needs, bounces may need all of them; those of matrices take the same
-  // subset everywhere.
-  const bool in_steps = options.error > 0.0f;
-  const bool all = in_steps && options.glossy == GlossyMeshes::kNone;
+  const bool in_steps = options.error > 0.0f;  // bounces may need all directions then
   return makeDirectionTables(
       options.order, options.directions,
-      all ? options.directions : std::min(options.bounce_directions, options.directions), in_steps);
+      in_steps ? options.directions : std::min(options.bounce_directions, options.directions), in_steps);
 }
 
 bool followsMirrors(const Scene& scene, const PosedScene& posed, const BakeOptions& options) {
@@ -80,75 +76,19 @@ bool followsMirrors(const Scene& scene, const PosedScene& posed, const BakeOptio
   });
 }
 
-std::size_t keptHitsBytes(const BakeEstimate& estimate, const BakeOptions& options) {
+std::size_t keptHitsBytes(std::size_t least_memory_bytes, const BakeOptions& options) {
   if (options.memory_bytes == 0) return kKeptHitsBytes;
   constexpr double kMiB = 1024.0 * 1024.0;
-  if (options.memory_bytes < estimate.least_memory_bytes) {
+  if (options.memory_bytes < least_memory_bytes) {
     throw Error(
         "bake",
         fmt::format("memory_bytes is {:.0f} MiB; this bake takes {:.0f} MiB or more: fewer bands, or no "
                     "matrices, take less",
                     std::floor(double(options.memory_bytes) / kMiB),
-                    std::ceil(double(estimate.least_memory_bytes) / kMiB)));
+                    std::ceil(double(least_memory_bytes) / kMiB)));
   }
-  return std::min(kKeptHitsBytes, options.memory_bytes - estimate.least_memory_bytes);
+  return std::min(kKeptHitsBytes, options.memory_bytes - least_memory_bytes);
 }
 
 }  // namespace prt
-
-using namespace prt;
-
-BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options) {
-  checkOptions(options);
-  const PosedScene posed = pose(scene, options.time_s);
-  BakeEstimate estimate;
-  if (wantsTexels(options)) estimate.texels = countTexels(scene, posed, options);
-  const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
-  for (std::size_t i = 0; i < posed.instances.size(); ++i) {
-    const Instance& instance = posed.instances[i];
-    if (instance.deformed()) continue;
-    if (glossy[i]) estimate.glossy_vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
-    estimate.vertices += scene.meshes[std::size_t(instance.mesh)].vertexCount();
-    estimate.triangles += scene.meshes[std::size_t(instance.mesh)].triangleCount();
-  }
-  const std::size_t points = estimate.vertices + estimate.texels;
-  const DirectionTables tables = tablesFor(options);
-  if (options.kind != TransferKind::kUnshadowed) {
-    estimate.rays = points * std::size_t(tables.tiles) * kTileSize / 2;
-  }
-  const std::size_t coefficients = std::size_t(tables.coefficients);
-  const std::size_t colors = options.kind == TransferKind::kInterreflected ? 4 : 1;
-  const GlossyLayout layout = glossyLayout(options);
-  const bool bounces = options.kind == TransferKind::kInterreflected;
-  const std::size_t matrices =
-      layout.visibilityCount() + (bounces ? std::size_t(3 * layout.lightCount() * layout.fieldCount()) : 0);
-  const std::size_t transfer =
-      (points * coefficients * colors + estimate.glossy_vertices * matrices) * sizeof(float);
-  // Per triangle: the hierarchy (130 bytes, measured), the points' own lists; per vertex: positions, normals, tangents,
-  // texture coordinates of the unique copy and the table that welds.
-  const std::size_t hits = points * std::size_t(tables.bounce_tiles) * kTileSize / 2;
-  const std::size_t hit = estimate.glossy_vertices > 0 ? sizeof(GlossyHit) : sizeof(GatheredHit);
-  // Hits of the sky by way of mirrors come on top, of those that mirrors take from surfaces.
-  const bool mirrors = followsMirrors(scene, posed, options);
-  const std::size_t kept = hits * (hit + (mirrors ? sizeof(SkyHit) / 2 : 0));
-  if (estimate.glossy_vertices > 0) {
-    estimate.least_memory_bytes = estimate.glossy_vertices * glossyStateBytes(layout, bounces) +
-                                  GlossyTables::memoryBytes(layout, tables.tiles);
-  }
-  estimate.least_memory_bytes += kProgramBytes + bakeStateBytes(points, tables, bouncesOf(options), mirrors) +
-                                 tables.memoryBytes() + transfer + estimate.triangles * (130 + 40) +
-                                 estimate.vertices * (60 + 90) + estimate.texels * (sizeof(FacePoint) + 60);
-  estimate.memory_bytes = estimate.least_memory_bytes;
-  if (bouncesOf(options) > 1) {
-    std::size_t most = kKeptHitsBytes;
-    if (options.memory_bytes > 0)
-      most =
-          std::min(most, options.memory_bytes - std::min(options.memory_bytes, estimate.least_memory_bytes));
-    estimate.memory_bytes += std::min(most, kept);
-  }
-  estimate.file_bytes = transfer + estimate.triangles * 12 + estimate.vertices * 48;
-  for (const Texture& texture : scene.textures) estimate.file_bytes += texture.rgba.size() / 2;
-  return estimate;
-}
-
 }  // namespace gloam

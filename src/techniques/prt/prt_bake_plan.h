@@ -21,6 +21,8 @@ bool followsMirrors(const Scene& scene, const PosedScene& posed, const BakeOptio
 
 /// What may be spent on hits that later bounces need not trace again. Throws Error where even without them the bake takes
 /// more than options.memory_bytes.
-std::size_t keptHitsBytes(const BakeEstimate& estimate, const BakeOptions& options);
+std::size_t keptHitsBytes(std::size_t least_memory_bytes, const BakeOptions& options);
+/// BakeEstimate::least_memory_bytes, as quick as that.
+std::size_t leastMemory(const Scene& scene, const BakeOptions& options);
 
 }  // namespace gloam::prt

@@ -5,10 +5,14 @@
 #include <gloam/bake.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
+#include "scene/checkpoint_file.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
+#include "techniques/prt/prt_bake_turn.h"
 
 namespace gloam::prt {
 namespace {
@@ -126,6 +130,82 @@ TEST(PrtBake, DamagedCheckpointsAreRefused) {
   EXPECT_THROW(bakeTransfer(scene, options), Error);
 }
 
+// Who has more work to do keeps all of it, and has it again at once.
+TEST(PrtBake, FinishedWorkIsKeptWhereThatIsAskedFor) {
+  Scene scene = crowdedScene();
+  const CheckpointFile file;
+  for (const bool apart : {false, true}) {
+    BakeOptions options = interreflected(2, 4);
+    options.apart = apart;
+    const Scene whole = bakeTransfer(scene, options);
+    options.checkpoint = file.path;
+    options.keep_checkpoint = true;
+    BakeReport first, second;
+    EXPECT_TRUE(sameBits(whole, bakeTransfer(scene, options, {}, &first)));
+    EXPECT_FALSE(first.resumed);
+    ASSERT_TRUE(std::filesystem::exists(file.path));
+    EXPECT_TRUE(sameBits(whole, bakeTransfer(scene, options, {}, &second)));
+    EXPECT_TRUE(second.resumed);
+    EXPECT_EQ(second.rays + second.bounce_rays, 0u);
+    ASSERT_TRUE(std::filesystem::exists(file.path));
+    EXPECT_EQ(std::filesystem::exists(file.path.string() + ".1"), apart);
+    removeBakeCheckpoint(file.path);
+    EXPECT_FALSE(std::filesystem::exists(file.path));
+    EXPECT_FALSE(std::filesystem::exists(file.path.string() + ".1"));
+  }
+}
+
+// Stages count from what was kept last, whoever kept it.
+TEST(PrtBake, ThatWorkWasKeptIsKnownToAllOfTheProcess) {
+  const auto before = std::chrono::steady_clock::now();
+  const CheckpointFile file;
+  interruptSoon(crowdedScene(), [&] {
+    BakeOptions options = shadowed();
+    options.checkpoint = file.path;
+    return options;
+  }());
+  EXPECT_GE(CheckpointWriter::lastCommit(), before);
+}
+
+// ---- Turned directions ---------------------------------------------------------------------------------------------
+
+TEST(PrtBake, TurnsAreRotationsAndSpreadOverPlaces) {
+  const Turns& turns = Turns::of(5);
+  std::set<const Turn*> met;
+  glm::mat3 sum(0.0f);
+  for (int k = 0; k < 2000; ++k) {
+    const glm::vec3 place(0.01f * float(k), 0.0f, 1.0f);
+    const Turn& turn = turns.at(place, {0, 1, 0});
+    EXPECT_EQ(&turn, &turns.at(place, {-0.0f, 1, 0}));
+    met.insert(&turn);
+    sum += turn.matrix / 2000.0f;
+    const glm::mat3 product = glm::transpose(turn.matrix) * turn.matrix;
+    for (int c = 0; c < 3; ++c) EXPECT_LT(glm::distance(product[c], glm::mat3(1.0f)[c]), 1e-5f);
+    EXPECT_GT(glm::determinant(turn.matrix), 0.0f);
+  }
+  EXPECT_EQ(met.size(), Turns::kCount);
+  for (int c = 0; c < 3; ++c) EXPECT_LT(glm::length(sum[c]), 0.35f) << "turned to all sides";
+}
+
+// Few directions err from point to point: neighbours of one plain do not err alike, and bounces are lit by the mean of them.
+TEST(PrtBake, NeighboursDoNotErrAlike) {
+  Scene scene = sceneOf(gridMesh(2.0f, 16));
+  addMesh(scene, quadMesh({0, 1, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}));
+  const Scene truth = bakeTransfer(scene, shadowed(3, 32768)), few = bakeTransfer(scene, shadowed(3, 256));
+  const std::vector<float>&t = truth.meshes[0].transfer->direct, &f = few.meshes[0].transfer->direct;
+  double alike = 0.0, size = 0.0;
+  for (std::size_t v = 0; v + 1 < scene.meshes[0].vertexCount(); ++v) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      const double here = double(f[9 * v + i] - t[9 * v + i]),
+                   next = double(f[9 * v + 9 + i] - t[9 * v + 9 + i]);
+      alike += here * next;
+      size += here * here;
+    }
+  }
+  ASSERT_GT(size, 0.0);
+  EXPECT_LT(alike / size, 0.25) << "1: all points err alike";
+}
+
 // ---- Bad input -------------------------------------------------------------------------------------------------------
 
 TEST(PrtBake, RefusesWhatCannotBeBaked) {
@@ -164,6 +244,20 @@ TEST(PrtBake, EstimateBoundsWhatTheBakeMakes) {
   EXPECT_GE(estimate.memory_bytes, 2 * bytes);
   EXPECT_GE(estimate.file_bytes, bytes);
   EXPECT_GT(estimateBake(scene, interreflected(1, 6)).memory_bytes, estimate.memory_bytes);
+}
+
+// What the file takes follows from how it is written; hits that nothing blocks are not counted on.
+TEST(PrtBake, EstimateKnowsHowTheFileIsWrittenAndWhatIsOpen) {
+  const Scene scene = crowdedScene();
+  const BakeOptions options = interreflected(3, 5, 4096, 4096);
+  const auto bytes = [&](const BakeFileForm& form) { return estimateBake(scene, options, form).file_bytes; };
+  EXPECT_LT(bytes({.half_float = true}), bytes({}) * 2 / 3);
+  EXPECT_LT(bytes({.clusters = 1, .vectors = 8}), bytes({}) / 2);
+  EXPECT_LT(bytes({.half_float = true, .clusters = 1, .vectors = 8}), bytes({.clusters = 1, .vectors = 8}));
+  const Scene ball = sceneOf(sphereMesh(100, 200));
+  const BakeEstimate open = estimateBake(ball, options);
+  EXPECT_LT(open.memory_bytes, open.least_memory_bytes * 11 / 10) << "a ball blocks nothing of itself";
+  EXPECT_EQ(open.vertices, ball.meshes[0].vertexCount());
 }
 
 }  // namespace

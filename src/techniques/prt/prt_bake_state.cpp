@@ -82,7 +82,7 @@ Fingerprint fingerprintOf(const Scene& scene, const BakeOptions& options) {
   add(print, scene);
   const auto& [kind, order, bounces, directions, bounce_directions, threads, time_s, glossy, glossy_order,
                glossy_light_order, glossy_exponent, texels, texels_per_metre, uv_set, caustics, error,
-               memory_bytes, apart, checkpoint] = options;
+               memory_bytes, apart, checkpoint, keep_checkpoint] = options;
   addAll(print, kind, order, bounces, directions, bounce_directions, time_s, glossy, glossy_order,
          glossy_light_order, glossy_exponent, texels, texels_per_metre, uv_set, caustics, error, apart);
   return print;

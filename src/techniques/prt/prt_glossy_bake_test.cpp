@@ -289,7 +289,7 @@ TEST(PrtGlossyBake, DiffuseScenesKeepTheirVectors) {
   const Scene plain = bakeTransfer(scene, options), with = bakeTransfer(scene, glossy(options));
   for (std::size_t m = 0; m < plain.meshes.size(); ++m) {
     const Transfer &a = *plain.meshes[m].transfer, &b = *with.meshes[m].transfer;
-    EXPECT_EQ(a.direct, b.direct);
+    EXPECT_LT(relativeDifference(b.direct, a.direct), 1e-5);
     EXPECT_LT(relativeDifference(b.indirect, a.indirect), 1e-5);
   }
 }
@@ -305,7 +305,8 @@ TEST(PrtGlossyBake, FewerBandsOfLightAreColumnsOfTheWhole) {
   const std::size_t vertices = few.meshes[2].vertexCount();
   ASSERT_EQ(b.indirect.size(), vertices * 225 * 3);
   for (std::size_t v = 0; v < vertices; v += 5) {
-    for (std::size_t k = 0; k < 49; ++k) ASSERT_EQ(a.visibility[v * 81 + k], b.visibility[v * 49 + k]);
+    for (std::size_t k = 0; k < 49; ++k)
+      ASSERT_NEAR(a.visibility[v * 81 + k], b.visibility[v * 49 + k], 1e-5f);
     for (std::size_t i = 0; i < 25; ++i) {
       for (std::size_t j = 0; j < 9; ++j)
         ASSERT_NEAR(indirectAt(a, v, i * 25 + j, 0), indirectAt(b, v, i * 9 + j, 0), 1e-5f);

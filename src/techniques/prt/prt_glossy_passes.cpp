@@ -61,112 +61,30 @@ void BakePasses::writeVisibility(std::size_t point, const float* sums, BakeState
   sh::hemisphereHigh(glossy.layout.visibilityOrder(), points_.normals[point], {visibility, count});
   RaySite& site = state.sites[point];
   const float solid_angle = tables_.solidAngle(site.tiles);
-  for (std::size_t k = 0; k < count; ++k) visibility[k] -= solid_angle * sums[k];
+  float blocked[sh::kMaxHighCoefficients];
+  std::copy_n(sums, count, blocked);
+  if (const auto* turn = coefficientTurn(point))
+    turn->apply(glossy.layout.visibilityOrder(), sums, 1, blocked, 1);
+  for (std::size_t k = 0; k < count; ++k) visibility[k] -= solid_angle * blocked[k];
   site.blocked_solid_angle = solid_angle * sums[0] * std::sqrt(4.0f * kPi);
 }
 
-GlossyHit BakePasses::glossyHit(const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) const {
-  const auto& [sender, share] = sendersAt(at.instance, at.triangle, at.u, at.v);
-  return {.point = {sender.x, sender.y, sender.z},
-          .share = {share.x, share.y, share.z},
-          .direction = came.primary,
-          .mirrors = came.mirrors,
-          .cosine = came.cosine,
-          .solid_angle = 1.0f,
-          .albedo = came.throughput * glm::clamp(diffuse, 0.0f, 1.0f) / kPi,
-          .specular = glm::vec3(0.0f),
-          .exponent = 1.0f,
-          .mirror = {}};
-}
-
-void BakePasses::addGlossyHits(std::size_t point, const trace::RayPacket& rays, const trace::HitPacket& found,
-                               std::size_t tile, std::uint32_t lanes, const float* cosines,
-                               std::vector<GlossyHit>& hits, std::vector<MirrorRay>& onward) const {
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int k = std::countr_zero(lanes);
-    const int instance = found.instance[k], triangle = found.triangle[k];
-    if (instance == trace::kNoHit) continue;
-    MirrorRay came{.ray = {.direction = {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]}},
-                   .cosine = cosines[k]};
-    came.primary = std::uint32_t(tile) * kTileSize + std::uint32_t(k);
-    const Meeting at{instance,
-                     triangle,
-                     found.u[k],
-                     found.v[k],
-                     {found.normal_x[k], found.normal_y[k], found.normal_z[k]}};
-    if (isBack(instance, triangle, glm::dot(came.ray.direction, at.geometric_normal))) continue;
-    const Surface& surface = surfaces_[std::size_t(instance)];
-    const brdf::Lobes lobes = lobesAt(surface, triangle, at.u, at.v);
-    GlossyHit hit = glossyHit(came, at, lobes.diffuse);
-    if (isFollowed(surface, lobes, 0)) {
-      reflect(point, came, at, lobes, onward);
-      if (hit.albedo != glm::vec3(0.0f)) hits.push_back(hit);
-      continue;
-    }
-    if (surface.glossy) {
-      hit.specular = glm::clamp(lobes.specular, 0.0f, 1.0f);
-      hit.exponent = lobes.exponent;
-      hit.mirror = brdf::mirrorDirection(shadingNormal(at), -came.ray.direction);
-    }
-    hits.push_back(hit);
-  }
-}
-
-// As collectHits and packPoint, with what both lobes need.
-std::size_t BakePasses::traceGlossyHits(std::size_t point, const BakeState& state, KeptHits& hits) const {
-  const std::size_t first = hits.glossy_hits.size(), first_sky = hits.skies.size();
-  const std::size_t tiles = std::min<std::size_t>(state.bounce_tiles, state.sites[point].tiles);
-  thread_local std::vector<MirrorRay> onward;
-  BounceSums sums;
-  traceBounceRays(point, state, 0, tiles, sums,
-                  [&](const trace::RayPacket& rays, const trace::HitPacket& found, std::int32_t tile,
-                      std::uint32_t lanes, const float* cosines) {
-                    addGlossyHits(point, rays, found, std::size_t(tile), lanes, cosines, hits.glossy_hits,
-                                  onward);
-                  });
-  sums.followed = followMirrors(
-      point, onward,
-      [&](const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) {
-        if (diffuse != glm::vec3(0.0f)) hits.glossy_hits.push_back(glossyHit(came, at, diffuse));
-      },
-      [&](const MirrorRay& came) { hits.skies.push_back(skyHit(came)); });
-  const float each = DirectionTables::solidAngle(tiles);
-  const auto scaled = [&](float known, double seen) {
-    return seen > 0.0 ? each * std::clamp(known / (each * float(seen)), 0.5f, 2.0f) : each;
-  };
-  const RaySite& site = state.sites[point];
-  const float cosine_weight = scaled(site.blocked_cosine, sums.cosine);
-  const float solid_angle = scaled(site.blocked_solid_angle, double(sums.rays));
-  const auto weigh = [&](auto& hit) {
-    hit.cosine *= cosine_weight;
-    hit.solid_angle *= solid_angle;
-  };
-  std::for_each(hits.glossy_hits.begin() + std::ptrdiff_t(first), hits.glossy_hits.end(), weigh);
-  std::for_each(hits.skies.begin() + std::ptrdiff_t(first_sky), hits.skies.end(), weigh);
-  return sums.rays + sums.followed;
-}
-
-// M^b of a point, matrix and vector, from M^{b-1} of what it hits.
-void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits,
-                              std::span<const SkyHit> skies, BakeState& state) const {
-  GlossyState& glossy = state.glossy;
+// Adds what hits and skies send to a vector, and, where that is given, a matrix.
+void BakePasses::sumGlossy(std::span<const GlossyHit> hits, std::span<const SkyHit> skies,
+                           const GatherSources& sources, int sky_pass, const GlossyState& glossy,
+                           float* vector, float* matrix) const {
   const GlossyLayout& layout = glossy.layout;
-  const std::size_t vector_stride = rowStride(state.coefficients),
-                    vector_count = std::size_t(state.coefficients);
+  const std::size_t vector_count = std::size_t(tables_.coefficients),
+                    vector_stride = rowStride(tables_.coefficients);
   const std::size_t fields = std::size_t(layout.fieldCount()), lights = std::size_t(layout.lightCount());
   const OuterShape vector_shape{1, vector_count, vector_stride, vector_stride};
   const OuterShape matrix_shape{fields, lights, layout.columnStride(), layout.colorSize()};
-  const bool has_matrix = glossy.has(point);
-  thread_local std::vector<float> matrix;
-  float vector[3 * sh::kMaxCoefficients + kRowPadding] = {};
-  if (has_matrix) matrix.assign(layout.matrixSize() + kRowPadding, 0.0f);
   constexpr float kOne[1] = {1.0f};
-  const GatherSources sources = sourcesOf(state);
   for (const GlossyHit& hit : hits) {
     LightRow light = {};
     const GatherSource& source = sources.by_mirrors[hit.mirrors];
     if (source.rows == nullptr) continue;
-    const std::size_t row = source.grey ? vector_count : state.row;
+    const std::size_t row = source.grey ? vector_count : 3 * vector_stride;
     MatrixMix vectors{.rows = 1,
                       .columns = vector_count,
                       .stride = vector_stride,
@@ -187,44 +105,47 @@ void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits
       addLobe(matrices, weights, &hit.specular.x, light);
     }
     addOuter(vector_shape, kOne, hit.cosine, light, vector);
-    if (has_matrix)
-      addOuter(matrix_shape, glossy_->basisOf(hit.direction), hit.solid_angle, light, matrix.data());
+    if (matrix != nullptr)
+      addOuter(matrix_shape, glossy_->basisOf(hit.direction), hit.solid_angle, light, matrix);
   }
   for (const SkyHit& sky : skies) {
-    if (int(sky.mirrors) != state.pass) continue;
+    if (sky_pass != kAllPasses && int(sky.mirrors) != sky_pass) continue;
     LightRow light = {};
     const sh::Sh y = sh::evaluate(tables_.order, sky.direction);
     for (int color = 0; color < 3; ++color) {
       for (int c = 0; c < y.size(); ++c) light.color[color][c] = sky.throughput[color] * y[c];
     }
     addOuter(vector_shape, kOne, sky.cosine, light, vector);
-    if (has_matrix)
-      addOuter(matrix_shape, glossy_->basisOf(sky.primary), sky.solid_angle, light, matrix.data());
+    if (matrix != nullptr)
+      addOuter(matrix_shape, glossy_->basisOf(sky.primary), sky.solid_angle, light, matrix);
   }
-  std::copy_n(vector, state.row, &state.next[point * state.row]);
-  if (has_matrix)
-    std::copy_n(matrix.data(), layout.matrixSize(),
-                &glossy.next[glossy.first_row[point] * layout.matrixSize()]);
 }
 
-std::size_t BakePasses::glossyBounceBlock(std::size_t block, BakeState& state) {
-  const std::size_t begin = state.blockBegin(block), count = state.blockEnd(block) - begin;
-  KeptHits fresh;
-  const bool kept = kept_hits_[block].complete;
-  std::size_t ray_count = 0;
-  for (std::size_t i = 0; i < count && !kept; ++i) {
-    if (state.sites[begin + i].place != Place::kBuried) ray_count += traceGlossyHits(begin + i, state, fresh);
-    fresh.points[i] = {.end = std::uint32_t(fresh.glossy_hits.size()),
-                       .sky_end = std::uint32_t(fresh.skies.size())};
+// M^b of a point, matrix and vector, from M^{b-1} of what it hits.
+void BakePasses::gatherGlossy(std::size_t point, std::span<const GlossyHit> hits,
+                              std::span<const SkyHit> skies, BakeState& state) const {
+  GlossyState& glossy = state.glossy;
+  const GlossyLayout& layout = glossy.layout;
+  const bool has_matrix = glossy.has(point);
+  thread_local std::vector<float> matrix;
+  float vector[3 * sh::kMaxCoefficients + kRowPadding] = {};
+  if (has_matrix) matrix.assign(layout.matrixSize() + kRowPadding, 0.0f);
+  sumGlossy(hits, skies, sourcesOf(state), state.pass, glossy, vector, has_matrix ? matrix.data() : nullptr);
+  std::copy_n(vector, state.row, &state.next[point * state.row]);
+  if (has_matrix) turnRows(point, matrix.data(), &glossy.next[glossy.first_row[point] * layout.matrixSize()]);
+}
+
+// Rows are of the point's own directions, whose axes are turned.
+void BakePasses::turnRows(std::size_t point, const float* matrix, float* to) const {
+  const GlossyLayout& layout = glossy_->layout;
+  std::copy_n(matrix, layout.matrixSize(), to);
+  const sh::HighRotation* turn = coefficientTurn(point);
+  if (turn == nullptr) return;
+  for (std::size_t color = 0; color < 3; ++color) {
+    for (std::size_t j = 0; j < std::size_t(layout.lightCount()); ++j)
+      turn->apply(layout.field_order, matrix + color * layout.colorSize() + j, layout.columnStride(),
+                  to + color * layout.colorSize() + j, layout.columnStride());
   }
-  const KeptHits& use = kept ? kept_hits_[block] : fresh;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t first = use.begin(i);
-    gatherGlossy(begin + i, {use.glossy_hits.data() + first, use.points[i].end - first}, use.skiesOf(i),
-                 state);
-  }
-  if (!kept) keep(block, state, fresh);
-  return ray_count;
 }
 
 }  // namespace gloam::prt

@@ -118,7 +118,7 @@ void GlossyState::finishPass(int pass) {
 }
 
 GlossyTables::GlossyTables(const GlossyLayout& layout, const DirectionTables& tables)
-    : stride((layout.visibilityCount() + 15) / 16 * 16), field_order(layout.field_order) {
+    : stride((layout.visibilityCount() + 15) / 16 * 16), field_order(layout.field_order), layout(layout) {
   const std::size_t tiles = std::size_t(tables.tiles), count = layout.visibilityCount();
   basis = hwy::AllocateAligned<float>(tiles * kTileSize * stride);
   tile_sums = hwy::AllocateAligned<float>(tiles * stride);

@@ -68,6 +68,7 @@ struct GlossyTables {
   /// Coefficients rounded up to 16.
   std::size_t stride = 0;
   int field_order = 0;
+  GlossyLayout layout;
   hwy::AlignedFreeUniquePtr<float[]> basis,
       tile_sums;                        ///< [tile * 16 + lane][coefficient], [tile][coefficient]
   std::vector<std::uint8_t> instances;  ///< glossyInstances

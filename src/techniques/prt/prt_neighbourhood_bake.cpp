@@ -210,7 +210,7 @@ Fingerprint fingerprintOf(const Scene& scene, int node, const NeighbourhoodOptio
   Fingerprint print;
   add(print, scene);
   const auto& [size, reach, order, thrown, directions, thrown_directions, threads, time_s, memory_bytes,
-               error_points, checkpoint] = options;
+               error_points, checkpoint, keep_checkpoint] = options;
   addAll(print, node, size, reach, order, thrown, directions, thrown_directions, time_s,
          std::string(kernelTarget()));
   return print;
@@ -252,13 +252,15 @@ NeighbourhoodTransfer bakeNeighbourhood(const Scene& scene, int node, const Neig
     }
     NeighbourhoodMeter meter(progress, options.checkpoint, fingerprint, state);
     bakePoints(tracer, object, state, meter, done);
+    if (options.keep_checkpoint) meter.keepAll();
     fillInside(state);
     done.points = grid.points();
     done.inside = std::size_t(std::ranges::count(state.inside, std::uint8_t(1)));
     done.error = measureError(tracer, object, grid, options.error_points);
   });
   std::error_code ignored;
-  if (!options.checkpoint.empty()) std::filesystem::remove(options.checkpoint, ignored);
+  if (!options.checkpoint.empty() && !options.keep_checkpoint)
+    std::filesystem::remove(options.checkpoint, ignored);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::move(state.grid);
 }

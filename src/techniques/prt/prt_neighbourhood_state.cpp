@@ -82,18 +82,22 @@ void NeighbourhoodMeter::report() {
 }
 
 void NeighbourhoodMeter::save() {
-  if (!checkpoint_.empty()) writeNeighbourhood(checkpoint_, fingerprint_, state_);
-  last_save_ = Clock::now();
+  if (checkpoint_.empty()) return;
+  const auto begin = Clock::now();
+  writeNeighbourhood(checkpoint_, fingerprint_, state_);
+  // As BakeMeter: at most a tenth of the time goes into it.
+  save_interval_ = std::max<Clock::duration>(std::chrono::seconds(20), 10 * (Clock::now() - begin));
 }
 
 bool NeighbourhoodMeter::blockDone(std::size_t rays) {
   rays_ += rays;
+  fresh_ = true;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock && !stopped_) {
     const auto now = Clock::now();
     if (progress_.stopRequested()) stopped_ = true;
     if (!stopped_ && now - last_report_ > std::chrono::milliseconds(100)) report();
-    if (!stopped_ && now - last_save_ > std::chrono::seconds(20)) save();
+    if (!stopped_ && now - CheckpointWriter::lastCommit() > save_interval_) save();
   }
   return !stopped_;
 }

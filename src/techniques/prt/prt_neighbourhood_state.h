@@ -44,6 +44,10 @@ class NeighbourhoodMeter {
   bool blockDone(std::size_t rays);
   /// Keeps what is done and throws Interrupted.
   [[noreturn]] void interrupt();
+  /// Keeps all of it, where other work is still to come.
+  void keepAll() {
+    if (fresh_) save();
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -58,7 +62,9 @@ class NeighbourhoodMeter {
   std::atomic<std::size_t> rays_{0};
   std::atomic<bool> stopped_{false};
   std::mutex mutex_;
-  Clock::time_point start_ = Clock::now(), last_report_{}, last_save_ = Clock::now();
+  std::atomic<bool> fresh_{false};  ///< the file does not hold all of it yet
+  Clock::time_point start_ = Clock::now(), last_report_{};
+  Clock::duration save_interval_ = std::chrono::seconds(20);
 };
 
 }  // namespace gloam::prt

@@ -20,6 +20,10 @@ using namespace prt;
 /// Shares of the scene's diagonal: how far apart large triangles are measured, and below which nothing is split. Where light
 /// and shadow meet at an edge no triangle is small enough.
 constexpr float kSpacing = 1.0f / 64.0f, kFinest = 1.0f / 1024.0f;
+/// The same where splitting has not lowered the error: across an edge of light the parts err as the whole does, and vertices only
+/// narrow the band that errs. Given up after so many generations, two of which halve a triangle's edges.
+constexpr float kFinestAtEdges = 1.0f / 256.0f, kLittleFall = 0.8f;
+constexpr int kFruitless = 4;
 constexpr int kMostPasses = 64;
 
 void check(const TessellateOptions& options) {
@@ -30,22 +34,35 @@ void check(const TessellateOptions& options) {
   if (options.directions != 0 && (options.directions < 256 || options.directions > 65536))
     throw Error("tessellate",
                 fmt::format("directions is {}; expected 256 to 65536, or 0", options.directions));
+  if (options.max_rays < 1000000)
+    throw Error("tessellate", fmt::format("max_rays is {}; expected 1000000 or more", options.max_rays));
   if (options.max_vertices > 100000000)
     throw Error("tessellate",
                 fmt::format("max_vertices is {}; expected up to 100000000", options.max_vertices));
 }
 
+/// What a triangle's ancestors have come to.
+struct Lineage {
+  float error = 0.0f;          ///< of the triangle that it is a part of
+  std::uint8_t fruitless = 0;  ///< generations in which splitting lowered it little
+};
+
 /// Errors of triangles that stayed whole go on; parts are to be measured.
-void handOn(const std::vector<std::vector<std::uint32_t>>& parents, std::vector<std::vector<float>>& errors) {
+void handOn(const std::vector<std::vector<std::uint32_t>>& parents, std::vector<std::vector<float>>& errors,
+            std::vector<std::vector<Lineage>>& lineages) {
   for (std::size_t i = 0; i < parents.size(); ++i) {
     std::vector<float> next(parents[i].size());
+    std::vector<Lineage> lines(next.size());
     for (std::size_t t = 0; t < next.size(); ++t) {
       const std::uint32_t parent = parents[i][t];
       const bool part =
           (t > 0 && parents[i][t - 1] == parent) || (t + 1 < next.size() && parents[i][t + 1] == parent);
       next[t] = part ? TessellationError::kUnknown : errors[i][parent];
+      lines[t] = lineages[i][parent];
+      if (part) lines[t].error = std::max(0.0f, errors[i][parent]);
     }
     errors[i] = std::move(next);
+    lineages[i] = std::move(lines);
   }
 }
 
@@ -74,43 +91,68 @@ class Tessellation {
     if (report.triangles_before == 0)
       throw Error(scene_.name.empty() ? "tessellate" : scene_.name,
                   "the scene has no rigid triangles to split");
-    std::vector<std::vector<float>> errors(posed_.instances.size());
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      const Instance& instance = posed_.instances[i];
-      if (!instance.deformed())
-        errors[i].assign(scene_.meshes[std::size_t(instance.mesh)].triangleCount(),
-                         TessellationError::kUnknown);
-    }
+    begin();
     for (report.passes = 0; report.passes <= kMostPasses; ++report.passes) {
-      measure.measure(scene_, posed_, progress, errors);
-      if (report.passes == 0) report.error_before = double(greatest(errors));
-      std::vector<TriangleRef> chosen = choose(errors, report);
-      progress.report(1.0 - 1.0 / double(report.passes + 2),
-                      fmt::format("splitting triangles: {} vertices", mesh_.vertexCount()));
-      if (chosen.empty() || mesh_.full() || report.passes == kMostPasses) break;
+      measureParts(measure, progress, report);
+      if (report.passes == 0) report.error_before = double(greatest(errors_));
+      const std::vector<TriangleRef> chosen = choose(report);
+      if (chosen.empty() || mesh_.full() || report.out_of_rays || report.passes == kMostPasses) break;
       const std::size_t before = mesh_.triangleCount();
-      handOn(mesh_.split(chosen, options_.max_vertices), errors);
+      handOn(mesh_.split(chosen, options_.max_vertices), errors_, lineages_);
       if (mesh_.triangleCount() == before) break;
       posed_ = pose(scene_, options_.time_s);
     }
     report.vertices_after = mesh_.vertexCount();
     report.triangles_after = mesh_.triangleCount();
-    report.error_after = double(greatest(errors));
+    report.error_after = double(greatest(errors_));
   }
 
   Scene take() { return std::move(scene_); }
 
  private:
+  void begin() {
+    errors_.resize(posed_.instances.size());
+    lineages_.resize(errors_.size());
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      const Instance& instance = posed_.instances[i];
+      if (instance.deformed()) continue;
+      const std::size_t triangles = scene_.meshes[std::size_t(instance.mesh)].triangleCount();
+      errors_[i].assign(triangles, TessellationError::kUnknown);
+      lineages_[i].resize(triangles);
+    }
+  }
+
+  void measureParts(const TessellationError& measure, const Progress& progress, TessellateReport& report) {
+    const auto fraction = [&](int passes) { return 1.0f - 1.0f / float(passes + 1); };
+    const std::vector<std::vector<float>> before = errors_;
+    const std::size_t left = options_.max_rays - std::min(options_.max_rays, report.rays);
+    report.rays += measure.measure(scene_, posed_, progress,
+                                   {fraction(report.passes), fraction(report.passes + 1)}, left, errors_);
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      for (std::size_t t = 0; t < errors_[i].size(); ++t) {
+        if (errors_[i][t] == TessellationError::kUnknown) report.out_of_rays = true;
+        if (before[i][t] != TessellationError::kUnknown) continue;
+        Lineage& line = lineages_[i][t];
+        const bool fruitless = report.passes > 0 && errors_[i][t] > kLittleFall * line.error;
+        line.fruitless = fruitless ? std::uint8_t(std::min(255, line.fruitless + 1)) : std::uint8_t(0);
+      }
+    }
+  }
+
+  bool isWorthSplitting(const TriangleRef& triangle) const {
+    const bool fruitless = lineages_[triangle.instance][triangle.triangle].fruitless >= kFruitless;
+    return mesh_.longestEdge(triangle) > (fruitless ? kFinestAtEdges : kFinest) * diagonal_;
+  }
+
   /// Triangles to be split, the worst first.
-  std::vector<TriangleRef> choose(const std::vector<std::vector<float>>& errors,
-                                  TessellateReport& report) const {
+  std::vector<TriangleRef> choose(TessellateReport& report) const {
     std::vector<TriangleRef> chosen;
     report.above = report.at_finest = 0;
-    for (std::uint32_t i = 0; i < errors.size(); ++i) {
-      for (std::uint32_t t = 0; t < errors[i].size(); ++t) {
-        if (!(errors[i][t] > options_.error)) continue;
+    for (std::uint32_t i = 0; i < errors_.size(); ++i) {
+      for (std::uint32_t t = 0; t < errors_[i].size(); ++t) {
+        if (!(errors_[i][t] > options_.error)) continue;
         ++report.above;
-        if (mesh_.longestEdge({i, t}) > kFinest * diagonal_) {
+        if (isWorthSplitting({i, t})) {
           chosen.push_back({i, t});
         } else {
           ++report.at_finest;
@@ -118,7 +160,7 @@ class Tessellation {
       }
     }
     std::ranges::stable_sort(chosen, std::greater(),
-                             [&](const TriangleRef& r) { return errors[r.instance][r.triangle]; });
+                             [&](const TriangleRef& r) { return errors_[r.instance][r.triangle]; });
     return chosen;
   }
 
@@ -127,6 +169,8 @@ class Tessellation {
   PosedScene posed_;
   SplitMesh mesh_;
   float diagonal_ = 0.0f;
+  std::vector<std::vector<float>> errors_;      // [instance][triangle]
+  std::vector<std::vector<Lineage>> lineages_;  // the same
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 // lights from everywhere, times sqrt(4 pi): errors are told as shares of the norm of unshadowed transfer.
 #include "techniques/prt/prt_tessellate_error.h"
 
+#include <fmt/format.h>
 #include <gloam/sh.h>
 #include <tbb/parallel_for.h>
 
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <mutex>
 
 #include "techniques/prt/prt_bake_passes.h"
 
@@ -63,12 +65,14 @@ struct TessellationError::Samples {
 };
 
 TessellationError::Samples TessellationError::placeSamples(
-    BakePoints& points, const std::vector<std::vector<float>>& errors) const {
+    BakePoints& points, std::size_t most, const std::vector<std::vector<float>>& errors) const {
   Samples samples;
+  const std::size_t vertices = points.size();
   std::unordered_map<std::uint64_t, std::uint32_t> middles;  // by the edge's points
   for (std::uint32_t i = 0; i < errors.size(); ++i) {
     for (std::uint32_t t = 0; t < errors[i].size(); ++t) {
       if (errors[i][t] != kUnknown) continue;
+      if (points.size() - vertices >= most) return samples;
       const std::uint32_t triangle = points.first_triangle[i] + t;
       const glm::uvec3 at = points.triangles[triangle];
       float longest = 0.0f;
@@ -101,11 +105,12 @@ TessellationError::Samples TessellationError::placeSamples(
   return samples;
 }
 
-void TessellationError::measure(const Scene& scene, const PosedScene& posed, const Progress& progress,
-                                std::vector<std::vector<float>>& errors) const {
+std::size_t TessellationError::measure(const Scene& scene, const PosedScene& posed, const Progress& progress,
+                                       glm::vec2 fractions, std::size_t rays,
+                                       std::vector<std::vector<float>>& errors) const {
   BakePoints points = makeBakePoints(scene, posed);
   const std::size_t vertices = points.size(), count = std::size_t(tables_.coefficients);
-  const Samples samples = placeSamples(points, errors);
+  const Samples samples = placeSamples(points, rays / std::size_t(directions() / 2), errors);
   const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true}, progress);
   const BakePasses passes(scene, posed, points, tracer, tables_);
   BakeState state = makeBakeState(points.size(), tables_, 0);
@@ -115,12 +120,19 @@ void TessellationError::measure(const Scene& scene, const PosedScene& posed, con
     if (found != known_.end()) known[p] = found->second;
   }
   std::atomic<bool> stop{false};
+  std::atomic<std::size_t> traced{0}, done{0};
+  std::mutex telling;
   tbb::parallel_for(std::size_t(0), state.blocks, [&](std::size_t block) {
     const auto begin = known.begin() + std::ptrdiff_t(state.blockBegin(block)),
                end = known.begin() + std::ptrdiff_t(state.blockEnd(block));
+    ++done;
     if (stop || std::find(begin, end, ~0u) == end) return;
-    passes.shadowBlock(block, state);
-    if (progress.should_stop && block % 64 == 0 && progress.stopRequested()) stop = true;
+    traced += passes.shadowBlock(block, state);
+    const std::unique_lock lock(telling, std::try_to_lock);
+    if (!lock || done % 64 != 1) return;
+    if (progress.stopRequested()) stop = true;
+    progress.report(double(glm::mix(fractions.x, fractions.y, float(done) / float(state.blocks))),
+                    fmt::format("splitting triangles: {} vertices", vertices));
   });
   if (stop) throw Interrupted("interrupted while splitting triangles");
   for (std::size_t p = 0; p < vertices; ++p) {
@@ -147,6 +159,7 @@ void TessellationError::measure(const Scene& scene, const PosedScene& posed, con
     }
     error = std::max(error, float(std::sqrt(squared)) / unshadowed_);
   }
+  return traced;
 }
 
 }  // namespace gloam::prt

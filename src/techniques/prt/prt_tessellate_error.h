@@ -21,9 +21,10 @@ class TessellationError {
   TessellationError(const TessellateOptions& options, float spacing);
 
   /// [instance][triangle]: in place of kUnknown the greatest |DS there - DS between the corners| / |DU| over the triangle, places
-  /// that nobody sees left out; other values stay.
-  void measure(const Scene& scene, const PosedScene& posed, const Progress& progress,
-               std::vector<std::vector<float>>& errors) const;
+  /// that nobody sees left out; other values stay. Triangles for which `rays` do not suffice stay unknown. Returns the number
+  /// of rays that it took. Told as work that begins and ends at these fractions.
+  std::size_t measure(const Scene& scene, const PosedScene& posed, const Progress& progress,
+                      glm::vec2 fractions, std::size_t rays, std::vector<std::vector<float>>& errors) const;
 
   /// Stands for an error that is to be measured.
   static constexpr float kUnknown = -1.0f;
@@ -34,7 +35,8 @@ class TessellationError {
   struct KeyHash {
     std::size_t operator()(const std::array<std::uint32_t, 6>& key) const;
   };
-  Samples placeSamples(BakePoints& points, const std::vector<std::vector<float>>& errors) const;
+  Samples placeSamples(BakePoints& points, std::size_t most,
+                       const std::vector<std::vector<float>>& errors) const;
 
   DirectionTables tables_;
   float spacing_, unshadowed_;

@@ -164,8 +164,7 @@ void SplitMesh::splitMesh(std::size_t instance, const Edges& edges, std::vector<
   mesh.indices = std::move(indices);
 }
 
-std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<TriangleRef>& triangles,
-                                                         std::size_t max_vertices) {
+SplitMesh::Edges SplitMesh::collectEdges() const {
   Edges edges;
   struct Side {
     std::uint32_t edge;
@@ -202,31 +201,49 @@ std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<Trian
   }
   for (std::size_t e = 0; e < edges.copies.size(); ++e)
     edges.first_triangle[e + 1] += edges.first_triangle[e];
-  std::vector<Side>().swap(sides);
+  return edges;
+}
 
+std::vector<std::uint32_t> SplitMesh::markSplit(const TriangleRef& triangle, Edges& edges,
+                                                std::size_t& made) const {
+  std::vector<std::uint32_t> marked, open;
+  const auto mark = [&](std::uint64_t key) {
+    const std::uint32_t edge = edges.index.at(key);
+    if (edges.middle[edge] != Edges::kWhole) return;
+    edges.middle[edge] = 0;
+    made += edges.copies[edge];
+    marked.push_back(edge);
+    open.push_back(edge);
+  };
+  mark(longest(triangle.instance, triangle.triangle));
+  while (!open.empty()) {
+    const std::uint32_t edge = open.back();
+    open.pop_back();
+    for (std::uint32_t s = edges.first_triangle[edge]; s < edges.first_triangle[edge + 1]; ++s)
+      mark(longest(edges.triangles[s].instance, edges.triangles[s].triangle));
+  }
+  return marked;
+}
+
+void SplitMesh::placeMiddles(Edges& edges) {
   std::vector<std::uint64_t> keys(edges.index.size());
   for (const auto& [key, edge] : edges.index) keys[edge] = key;
+  for (std::size_t e = 0; e < keys.size(); ++e) {
+    if (edges.middle[e] == Edges::kWhole) continue;
+    edges.middle[e] = std::uint32_t(places_.size());
+    places_.push_back(0.5 *
+                      (places_[std::size_t(keys[e] >> 32)] + places_[std::size_t(keys[e] & 0xffffffffu)]));
+  }
+}
+
+std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<TriangleRef>& triangles,
+                                                         std::size_t max_vertices) {
+  Edges edges = collectEdges();
   std::size_t vertices = vertexCount();
   full_ = false;
-  std::vector<std::uint32_t> marked, open;
   for (const TriangleRef& triangle : triangles) {
-    marked.clear();
     std::size_t made = 0;
-    const auto mark = [&](std::uint64_t key) {
-      const std::uint32_t edge = edges.index.at(key);
-      if (edges.middle[edge] != Edges::kWhole) return;
-      edges.middle[edge] = 0;
-      made += edges.copies[edge];
-      marked.push_back(edge);
-      open.push_back(edge);
-    };
-    mark(longest(triangle.instance, triangle.triangle));
-    while (!open.empty()) {
-      const std::uint32_t edge = open.back();
-      open.pop_back();
-      for (std::uint32_t s = edges.first_triangle[edge]; s < edges.first_triangle[edge + 1]; ++s)
-        mark(longest(edges.triangles[s].instance, edges.triangles[s].triangle));
-    }
+    const std::vector<std::uint32_t> marked = markSplit(triangle, edges, made);
     if (vertices + made > max_vertices) {
       for (const std::uint32_t edge : marked) edges.middle[edge] = Edges::kWhole;
       full_ = true;
@@ -234,12 +251,7 @@ std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<Trian
     }
     vertices += made;
   }
-  for (std::size_t e = 0; e < keys.size(); ++e) {
-    if (edges.middle[e] == Edges::kWhole) continue;
-    edges.middle[e] = std::uint32_t(places_.size());
-    places_.push_back(0.5 *
-                      (places_[std::size_t(keys[e] >> 32)] + places_[std::size_t(keys[e] & 0xffffffffu)]));
-  }
+  placeMiddles(edges);
   std::vector<std::vector<std::uint32_t>> parents(mesh_of_.size());
   for (std::size_t i = 0; i < mesh_of_.size(); ++i) {
     if (mesh_of_[i] != kNone) splitMesh(i, edges, parents[i]);

@@ -37,6 +37,11 @@ class SplitMesh {
 
  private:
   struct Edges;
+  Edges collectEdges() const;
+  /// Marks the longest edge of a triangle, and all that have to be split with it. Returns those that were not marked before;
+  /// adds the vertices that they make.
+  std::vector<std::uint32_t> markSplit(const TriangleRef& triangle, Edges& edges, std::size_t& made) const;
+  void placeMiddles(Edges& edges);
   std::uint64_t longest(std::size_t instance, std::size_t triangle) const;
   void splitMesh(std::size_t instance, const Edges& edges, std::vector<std::uint32_t>& parents);
   std::uint32_t middle(std::size_t instance, std::uint32_t a, std::uint32_t b, const Edges& edges);

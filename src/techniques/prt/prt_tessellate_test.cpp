@@ -239,13 +239,36 @@ TEST(PrtTessellate, EdgesOfLightEndAtTheFinest) {
   for (glm::vec3& p : box.positions) p += glm::vec3(0.2f, 0.39f, 0.1f);
   addMesh(scene, box);
   TessellateOptions options;
-  options.error = 0.2f;
+  options.error = 0.1f;
   options.order = 3;
   options.directions = 256;
   TessellateReport report;
   tessellateForTransfer(scene, options, {}, &report);
   EXPECT_EQ(report.above, report.at_finest);
-  EXPECT_LT(report.vertices_after, 20000u);
+  EXPECT_GT(report.at_finest, 0u);
+  EXPECT_LT(report.vertices_after, 5000u) << "vertices there lower no error";
+  EXPECT_FALSE(report.out_of_rays);
+  EXPECT_GT(report.rays, 0u);
+}
+
+// Time is bounded by rays, on any machine alike.
+TEST(PrtTessellate, StopsAtTheMostRays) {
+  TessellateOptions options;
+  options.error = 0.03f;
+  TessellateReport all, some;
+  tessellateForTransfer(plateScene(), options, {}, &all);
+  ASSERT_FALSE(all.out_of_rays);
+  options.max_rays = 2000000;
+  std::vector<Scene> scenes;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    scenes.push_back(tessellateForTransfer(plateScene(), options, {}, &some));
+    EXPECT_TRUE(some.out_of_rays);
+    EXPECT_LT(some.rays, all.rays);
+    EXPECT_LT(some.rays, 3 * options.max_rays);
+    EXPECT_LT(some.vertices_after, all.vertices_after);
+  }
+  EXPECT_EQ(scenes[0].meshes[0].positions, scenes[1].meshes[0].positions);
 }
 
 TEST(PrtTessellate, RefusesWhatItCannotDo) {
@@ -254,6 +277,7 @@ TEST(PrtTessellate, RefusesWhatItCannotDo) {
   EXPECT_THROW(tessellateForTransfer(scene, {.error = NAN}), Error);
   EXPECT_THROW(tessellateForTransfer(scene, {.order = 7}), Error);
   EXPECT_THROW(tessellateForTransfer(scene, {.directions = 10}), Error);
+  EXPECT_THROW(tessellateForTransfer(scene, {.max_rays = 10}), Error);
   EXPECT_THROW(tessellateForTransfer(Scene{}, {}), Error);
   Progress progress;
   progress.should_stop = [] { return true; };
