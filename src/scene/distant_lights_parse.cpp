@@ -230,8 +230,13 @@ std::vector<std::string> textsOfFile(const std::string& path) {
   if (!file) throw Error(path, "cannot be read");
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   const auto isText = [](const nlohmann::json& value) { return value.is_string(); };
-  if (!json.is_array() || !std::ranges::all_of(json, isText))
-    throw Error(path, "a JSON list of lights was expected, such as [\"disc?elevation=30\"]");
+  constexpr const char* kExpected = "a JSON list of lights was expected, such as [\"disc?elevation=30\"]";
+  if (!json.is_array()) throw Error(path, kExpected);
+  const auto other = std::ranges::find_if_not(json, isText);
+  if (other != json.end())
+    throw Error(path, fmt::format("entry {} is {} {}: {}", other - json.begin(),
+                                  other->is_array() || other->is_object() ? "an" : "a", other->type_name(),
+                                  kExpected));
   return json.get<std::vector<std::string>>();
 }
 
