@@ -235,13 +235,13 @@ Scene makeAssembly(const Detail& detail, NamedValues&) {
   addMotion(builder, press, kSeconds, [](float t) { return glm::vec3(kStations_m[2], ramHeight(t), 0); });
 
   const int glow = builder.diffuse("lamp", glm::vec3(0.0f));
-  builder.material(glow).emission = {27.0f, 19.0f, 10.0f};
+  builder.material(glow).emission = {34.0f, 24.0f, 13.0f};
   const glm::vec3 middle(0, kRail_m - kLampRadius_m, kRailOut_m);
   const int lamp = builder.place("lamp", shapes::icosphere(kLampRadius_m, detail(8)), glow, middle);
   addMotion(builder, lamp, kSeconds,
             [=](float t) { return middle - glm::vec3(1.45f * std::cos(2 * kPi * t / kSeconds), 0, 0); });
   builder.camera({0.75f, 1.95f, 4.3f}, {-0.02f, 0.84f, -0.2f}, 35);
-  builder.sky("mild?intensity=0.22&azimuth=20");
+  builder.sky("mild?intensity=0.3&azimuth=20");
   return builder.finish();
 }
 

@@ -66,8 +66,9 @@ TEST_P(MovingScenes, MoveWithoutJumps) {
 TEST_P(MovingScenes, StandAboveTheGroundAndCloseTheirBodies) {
   const Scene scene = makeBuiltinScene(std::string(GetParam().name) + "?detail=0.5");
   for (const Node& node : scene.nodes) {
-    if (node.name == "hall" || node.name == "ground" || node.name == "floor" || node.name == "table" ||
-        node.name == "box")
+    const bool in_box = node.parent != kNone && scene.nodes[std::size_t(node.parent)].name == "box";
+    if (in_box || node.name == "hall" || node.name == "ground" || node.name == "floor" ||
+        node.name == "table")
       continue;  // seen from above only
     for (const int mesh : node.meshes) {
       EXPECT_EQ(mesh_laws::openEdges(scene.meshes[std::size_t(mesh)]), 0) << node.name;

@@ -169,8 +169,8 @@ struct Act {
     return easedThrough(curve, phase(t));
   }
   float jump(float t) const {
-    const float x = (phase(t) - 0.6f) / 0.62f;  // seconds in the air: 9.8 m / s^2 takes it 0.47 m up
-    return x > 0.0f && x < 1.0f ? 4.0f * 0.47f * x * (1.0f - x) : 0.0f;
+    const float x = (phase(t) - 0.6f) / 0.57f;  // seconds in the air: 9.8 m / s^2 takes it 0.4 m up
+    return x > 0.0f && x < 1.0f ? 4.0f * 0.4f * x * (1.0f - x) : 0.0f;
   }
   /// Of the whole bag, in radians; positive leans to +X.
   float bend(float t) const {
@@ -231,14 +231,14 @@ Scene makePackages(const Detail& detail, NamedValues&) {
   builder.place("table", shapes::withUvScale(shapes::slab(1.7f, 1.2f, 0.12f, 0.03f, cell), {2.0f, 1.4f}),
                 addBoards(builder, "table", {0.5f, 0.38f, 0.25f}), {0, 0, 0.1f});
   builder.place("back wall",
-                shapes::moved(shapes::roundedBox({1.7f, 0.95f, 0.05f}, 0.02f, 1.5f * cell, 2), {0, 0.95f, 0}),
+                shapes::moved(shapes::roundedBox({1.7f, 1.05f, 0.05f}, 0.02f, 1.5f * cell, 2), {0, 1.05f, 0}),
                 addPlaster(builder, "wall", {0.7f, 0.68f, 0.63f}, {0.36f, 0.46f, 0.3f}, 0.78f, 1.2f),
                 {0, -0.11f, -0.98f});
   const int warm = foil(builder, "red foil", {{0.7f, 0.045f, 0.03f}, {0.85f, 0.5f, 0.04f}, 11});
   const int cool = foil(builder, "green foil", {{0.04f, 0.36f, 0.2f}, {0.1f, 0.55f, 0.62f}, 29});
   addBag(builder, "red bag", detail, warm, {-0.56f, 0.0f, 0.05f}, 0.3f, {0.0f, 1.0f});
   addBag(builder, "green bag", detail, cool, {0.56f, 0.0f, -0.05f}, -0.25f, {2.0f, -1.0f});
-  builder.camera({0.7f, 1.3f, 3.2f}, {0.02f, 0.56f, -0.05f}, 33);
+  builder.camera({0.7f, 1.35f, 3.35f}, {0.02f, 0.66f, -0.05f}, 36);
   builder.sky("mild?azimuth=25&elevation=45");
   return builder.finish();
 }

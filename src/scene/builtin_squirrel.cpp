@@ -20,7 +20,7 @@ constexpr float kSeconds = 4.0f;
 
 /// The bottom of the box seen from the side, +X downhill: a slope, an arc, a level run.
 struct Path {
-  float slope_rad = 0.47f, slope_m = 2.5f, bend_m = 1.7f, level_m = 2.05f, height_m = 0.08f;
+  float slope_rad = 0.47f, slope_m = 2.3f, bend_m = 2.2f, level_m = 2.05f, height_m = 0.08f;
   struct Place {
     glm::vec3 position;
     float angle_rad;  // of the way on, above +X
@@ -87,29 +87,34 @@ Mesh bar(const Path& path, float from_m, float to_m, glm::vec2 z, glm::vec2 heig
 
 constexpr float kHalfWidth = 0.92f;
 
+/// Boards, each a node of its own and flat: none of them is worth spheres.
 void addBox(SceneBuilder& builder, const Path& path, const Detail& detail) {
-  const float cell = detail.cell(0.085f);
+  const float cell = detail.cell(0.085f), end = path.length(), board = 0.03f, side = 0.04f;
   const int wood = addBoards(builder, "boards", {0.52f, 0.36f, 0.2f});
   const int rim = addBoards(builder, "rim", {0.16f, 0.3f, 0.38f});
   const int box = builder.node("box");
-  const float end = path.length();
-  Mesh bottom = bar(path, 0, end, {-kHalfWidth - 0.02f, kHalfWidth + 0.02f}, {-0.05f, 0.0f}, cell);
-  for (glm::vec2& uv : bottom.uv_sets[0]) std::swap(uv.x, uv.y);  // boards run down the slope
-  for (glm::vec2& uv : bottom.uv_sets[0]) uv *= glm::vec2(2, 3);
-  Mesh walls = bar(path, -0.03f, end + 0.03f, {kHalfWidth, kHalfWidth + 0.06f}, {-0.065f, 0.15f}, cell);
-  shapes::append(walls,
-                 bar(path, -0.03f, end + 0.03f, {-kHalfWidth - 0.06f, -kHalfWidth}, {-0.065f, 0.15f}, cell));
-  for (const float s : {-0.06f, end})
-    shapes::append(
-        walls, bar(path, s, s + 0.06f, {-kHalfWidth + 0.001f, kHalfWidth - 0.001f}, {-0.06f, 0.14f}, cell));
-  for (glm::vec2& uv : walls.uv_sets[0]) uv = {0.25f * uv.y, uv.x};
-  const glm::vec3 high = path.at(0.35f).position;
-  for (const float z : {-0.7f, 0.7f}) {
-    const glm::vec3 half(0.05f, 0.5f * (high.y - 0.04f), 0.05f);
-    shapes::append(walls, shapes::moved(shapes::roundedBox(half, 0.012f, cell, 2), {high.x, half.y, z}));
+  const std::array<float, 4> cuts = {0.0f, path.slope_m, path.endOfBend(), end};
+  const std::array<const char*, 3> names = {"slope", "bend", "level"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Mesh bottom =
+        bar(path, cuts[i], cuts[i + 1], {-kHalfWidth - 0.02f, kHalfWidth + 0.02f}, {-board, 0.0f}, cell);
+    // Boards run down the slope, and on from piece to piece.
+    for (glm::vec2& uv : bottom.uv_sets[0]) uv = {2.0f * uv.y, 0.55f * glm::mix(cuts[i], cuts[i + 1], uv.x)};
+    builder.place(names[i], std::move(bottom), wood, glm::vec3(0.0f), box);
   }
-  builder.at(box).meshes = {builder.mesh("box bottom", std::move(bottom), wood),
-                            builder.mesh("box walls", std::move(walls), rim)};
+  const auto edge = [&](const std::string& name, float from, float to, glm::vec2 z, glm::vec2 height) {
+    Mesh mesh = bar(path, from, to, z, height, cell);
+    for (glm::vec2& uv : mesh.uv_sets[0]) uv = {0.25f * uv.y, uv.x};
+    builder.place(name, std::move(mesh), rim, glm::vec3(0.0f), box);
+  };
+  edge("near side", -side, end + side, {kHalfWidth, kHalfWidth + side}, {-board - 0.015f, 0.15f});
+  edge("far side", -side, end + side, {-kHalfWidth - side, -kHalfWidth}, {-board - 0.015f, 0.15f});
+  const float thin = 0.012f, across = kHalfWidth - 0.001f;
+  edge("upper end", -thin, 0.0f, {-across, across}, {-board - 0.012f, 0.145f});
+  edge("lower end", end, end + thin, {-across, across}, {-board - 0.012f, 0.145f});
+  // A board across carries the upper end.
+  const glm::vec3 high = path.at(0.35f).position, half(0.04f, 0.5f * (high.y - board), 0.8f);
+  builder.place("trestle", shapes::roundedBox(half, 0.012f, cell, 2), rim, {high.x, half.y, 0}, box);
 }
 
 struct Ball {

@@ -26,7 +26,7 @@ const glm::vec3 kRed(0.7f, 0.06f, 0.04f), kBlue(0.05f, 0.17f, 0.62f), kYellow(0.
 
 /// A pale ground, on which colour shows.
 void addStage(SceneBuilder& builder, const Detail& detail, float half) {
-  builder.place("ground", shapes::slab(half, half, 0.15f, 0.04f, detail.cell(half / 42.0f)),
+  builder.place("ground", shapes::slab(half, half, 0.15f, 0.04f, detail.cell(half / 46.0f)),
                 builder.diffuse("ground", {0.72f, 0.71f, 0.69f}));
 }
 
@@ -46,7 +46,7 @@ struct Joint {
 Scene makeBalls(const Detail& detail, NamedValues& values) {
   const int count = int(values.take("count", 5, 1, 5));
   SceneBuilder builder("balls");
-  addStage(builder, detail, 1.6f);
+  addStage(builder, detail, 1.9f);
   const std::array<int, 5> paints = {addGores(builder, "red gores", kRed, kWhite, kBlue, 8),
                                      addBelts(builder, "blue belts", kBlue, kWhite, 2),
                                      addChequers(builder, "yellow chequers", kYellow, kGreen, 8, 4),
@@ -75,7 +75,7 @@ Scene makePair(const Detail& detail, NamedValues& values) {
   constexpr float kRadius = 0.42f;
   const float x = kRadius * (1.0f - 0.5f * overlap);
   SceneBuilder builder("pair");
-  addStage(builder, detail, 1.5f);
+  addStage(builder, detail, 1.8f);
   const int both = builder.node("pair", kNone, {0, kRadius + 0.12f, 0});
   if (apart) {
     for (const float side : {-1.0f, 1.0f})
@@ -115,7 +115,7 @@ Scene makeBend(const Detail& detail, NamedValues& values) {
   constexpr int kJoints = 9;
   constexpr float kLength = 2.4f, kRadius = 0.24f;
   SceneBuilder builder("bend");
-  addStage(builder, detail, 1.8f);
+  addStage(builder, detail, 2.3f);
   // The cylinder lies along X at rest and bends in its level plane about its middle joint, towards -Z.
   Mesh mesh = shapes::moved(shapes::cylinder(kRadius, kLength, 0.05f, detail(44), detail(64)),
                             {0, -0.5f * kLength, 0});
@@ -156,7 +156,7 @@ Scene makeBend(const Detail& detail, NamedValues& values) {
   const int node = builder.place("cylinder", std::move(mesh),
                                  addChequers(builder, "yellow and red", kYellow, kRed, 8, 16));
   builder.at(node).skin = builder.skin(joints, std::move(joint_from_mesh));
-  builder.camera({1.0f, 3.2f, 3.6f}, {0, 0.42f, 0}, 36);
+  builder.camera({1.0f, 3.1f, 3.9f}, {0, 0.45f, -0.05f}, 36);
   builder.sky("mild?azimuth=30");
   return builder.finish();
 }
@@ -165,7 +165,7 @@ Scene makeBox(const Detail& detail, NamedValues& values) {
   const float lift = float(values.take("lift", 0.1, 0.001, 1));
   constexpr float kHalf = 0.45f;
   SceneBuilder builder("box");
-  addStage(builder, detail, 1.4f);
+  addStage(builder, detail, 1.7f);
   const int paint = addPainted(builder, "box paint", [](float u, float v) {
     const float edge = std::min(std::min(u, 1.0f - u), std::min(v, 1.0f - v));
     const float ring = std::max(std::abs(u - 0.5f), std::abs(v - 0.5f));
@@ -188,7 +188,7 @@ Scene makeLinks(const Detail& detail, NamedValues& values) {
   constexpr float kTube = 0.085f, kHalfStraight = 0.2f, kBow = 0.24f;  // middle line of a link
   const float pitch = 2.0f * (kHalfStraight + kBow) - 2.0f * kTube - 0.12f;
   SceneBuilder builder("links");
-  addStage(builder, detail, 1.5f + 0.25f * float(count - 2));
+  addStage(builder, detail, 1.8f + 0.25f * float(count - 2));
   const auto curve = [](float t) {  // two straights and two half circles, in the XY plane, longer along X
     const float straight = 2.0f * kHalfStraight, bow = kPi * kBow, whole = 2.0f * (straight + bow);
     float s = (t - std::floor(t)) * whole;
@@ -222,7 +222,7 @@ Scene makeLinks(const Detail& detail, NamedValues& values) {
 
 Scene makeBars(const Detail& detail, NamedValues&) {
   SceneBuilder builder("bars");
-  addStage(builder, detail, 1.5f);
+  addStage(builder, detail, 1.8f);
   // Each lies over the next and under the one before.
   const int group = builder.node("bars", kNone, {0, 0.62f, 0});
   const std::array<glm::vec3, 3> hues = {kRed, kBlue, kYellow};

@@ -15,9 +15,6 @@ namespace {
 
 using spheres::Object;
 
-constexpr double kTooLoose =
-    12.0;  // times its own volume outside: what one sphere among many objects may not do
-
 void checkOptions(const SphereOptions& options) {
   const auto check = [](const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most)) {
@@ -67,7 +64,7 @@ std::string spheresText(std::size_t count) {
 
 /// Among others, an object that its few spheres misrepresent casts nothing.
 void judge(SphereSet& set) {
-  if (set.figures.relativeSum() <= kTooLoose) return;
+  if (set.figures.relativeSum() <= spheres::kTooLoose) return;
   set.receive_only =
       fmt::format("thin: {} would hold {:.0f} times its volume of air; a larger count may serve",
                   spheresText(set.spheres.size()), set.figures.relativeSum());

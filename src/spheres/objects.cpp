@@ -120,6 +120,55 @@ int neededCount(const Object& object) {
   return k;
 }
 
+void deal(const std::vector<Object*>& casters, int count, bool among_others) {
+  long left = count;
+  if (count == 0) {
+    long needed = 0;
+    for (const Object* object : casters) needed += long(object->places) * neededCount(*object);
+    if (needed > kFewest && needed <= kMost) {
+      for (Object* object : casters) object->count = neededCount(*object);
+      return;
+    }
+    left = std::clamp<long>(needed, kFewest, kMost);
+  }
+  for (Object* object : casters) object->count = 1, left -= long(object->places);
+  // Where one more sphere takes off most; large pieces first, as long as one fits.
+  const auto gain = [](const Object& object) {
+    const float volume = object.solid.volume * object.world_scale3;
+    if (object.outside.front() < kRound * volume) return 0.0f;
+    return outsideAt(object, object.count) - outsideAt(object, object.count + 1);
+  };
+  while (left > 0) {
+    Object* best = nullptr;
+    for (Object* object : casters) {
+      if (long(object->places) > left) continue;
+      if (best == nullptr || gain(*object) > gain(*best)) best = object;
+    }
+    if (best == nullptr || (gain(*best) <= 0.0f && (among_others || count == 0))) break;
+    ++best->count;
+    left -= long(best->places);
+  }
+}
+
+/// The one that is farthest from what its spheres may hold, by quick fits that hold more than the final ones; null: none is.
+Object* mostMisrepresented(const std::vector<Object*>& casters) {
+  constexpr float kQuickFits = 2.0f;
+  Object* worst = nullptr;
+  float most = kQuickFits * float(kTooLoose);
+  for (Object* object : casters) {
+    const float volume = object->solid.volume * object->world_scale3;
+    const float air = volume > 0.0f ? outsideAt(*object, object->count) / volume : 0.0f;
+    if (air > most) most = air, worst = object;
+  }
+  if (worst != nullptr) {
+    worst->set.receive_only =
+        fmt::format("thin: {} {} would hold some {:.0f} times its volume of air; a larger count may serve",
+                    worst->count, worst->count == 1 ? "sphere" : "spheres", most);
+    worst->count = 0;
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::string geometryOf(const Scene& scene, const std::vector<int>& meshes) {
@@ -186,32 +235,12 @@ void spreadCount(std::vector<Object>& objects, int count) {
   }
   tbb::parallel_for(std::size_t(0), casters.size(),
                     [&](std::size_t i) { casters[i]->outside = outsideOf(*casters[i]); });
-  long left = count;
-  if (count == 0) {
-    long needed = 0;
-    for (const Object* object : casters) needed += long(object->places) * neededCount(*object);
-    if (needed > kFewest && needed <= kMost) {
-      for (Object* object : casters) object->count = neededCount(*object);
-      return;
-    }
-    left = std::clamp<long>(needed, kFewest, kMost);
-  }
-  for (Object* object : casters) object->count = 1, left -= long(object->places);
-  // Where one more sphere takes off most; large pieces first, as long as one fits.
-  const auto gain = [](const Object& object) {
-    const float volume = object.solid.volume * object.world_scale3;
-    if (object.outside.front() < kRound * volume) return 0.0f;
-    return outsideAt(object, object.count) - outsideAt(object, object.count + 1);
-  };
-  while (left > 0) {
-    Object* best = nullptr;
-    for (Object* object : casters) {
-      if (long(object->places) > left) continue;
-      if (best == nullptr || gain(*object) > gain(*best)) best = object;
-    }
-    if (best == nullptr || (gain(*best) <= 0.0f && (objects.size() > 1 || count == 0))) break;
-    ++best->count;
-    left -= long(best->places);
+  deal(casters, count, objects.size() > 1);
+  while (casters.size() > 1) {
+    Object* worst = mostMisrepresented(casters);
+    if (worst == nullptr) break;
+    std::erase(casters, worst);
+    deal(casters, count, true);
   }
 }
 

@@ -254,6 +254,20 @@ TEST(Spheres, SpreadGivesOneToEachAndTheRestByWhatIsGained) {
   EXPECT_EQ(objects[1].count, 1);
 }
 
+// A large thin frame would take most spheres and cast nothing all the same.
+TEST(Spheres, WhatIsTooThinLeavesItsShareToOthers) {
+  SceneBuilder builder("frame");
+  const int white = builder.diffuse("white", glm::vec3(0.5f));
+  builder.place("frame", shapes::torusKnot(2, 3, 4.0f, 1.6f, 0.03f, 120, 8), white);
+  builder.place("knot", shapes::torusKnot(2, 3, 0.3f, 0.13f, 0.08f, 90, 12), white);
+  builder.place("ball", shapes::icosphere(0.3f, 8), white, {1, 0, 0});
+  SphereOptions options = quick(9, 0.02f);
+  const SceneSpheres spheres = bakeSpheres(builder.finish(), options);
+  EXPECT_NE(spheres.sets[0].receive_only.find("thin"), std::string::npos);
+  EXPECT_EQ(spheres.sets[1].spheres.size(), 8u);
+  EXPECT_EQ(spheres.sets[2].spheres.size(), 1u);
+}
+
 // Rings want a string of small spheres each, a ball one; the number follows.
 TEST(Spheres, TheNumberFollowsFromTheShapes) {
   SceneBuilder builder("rings");
