@@ -9,8 +9,9 @@ import unittest
 
 from harness import SOURCE, CliTest
 
-SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "caustic", "columns", "gallery", "lamp", "textured", "walker",
-          "mobile", "passing", "ring"]
+SCENES = ["furnace", "furnace-concave", "bowl", "cornell", "spheres", "shadow", "bronze", "caustic", "columns",
+          "gallery", "lamp", "textured", "walker", "mobile", "passing", "ring", "squirrel", "robot", "packages",
+          "assembly", "balls", "pair", "bend", "box", "links", "bars", "furnace-pair"]
 
 
 def missing():
