@@ -14,6 +14,8 @@ namespace gloam::view {
 namespace {
 
 constexpr double kLeastFrameSeconds = 1.0 / 60.0;
+constexpr double kInputSeconds = 0.25;                        // frames go on after an input
+constexpr double kRestSeconds = 0.5, kProgressSeconds = 0.1;  // between two frames that show no new picture
 constexpr int kMostRecoveries = 3;
 
 std::string glfw_problem;
@@ -32,7 +34,8 @@ App::App(const ViewerChoice& choice) : choice_(choice) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   setScale();
-  ImGui_ImplGlfw_InitForVulkan(window_, true);
+  noticeInput();
+  ImGui_ImplGlfw_InitForVulkan(window_, true);  // passes events on to what was there before
   openSurface();
   session_ = std::make_unique<Session>(choice, [] { glfwPostEmptyEvent(); });
 }
@@ -68,6 +71,31 @@ void App::createWindow() {
   });
 }
 
+/// A frame of the window costs a software driver as much as a small picture: it is drawn when there is something new.
+void App::noticeInput() {
+  const auto notice = [](GLFWwindow* window) {
+    static_cast<App*>(glfwGetWindowUserPointer(window))->input_s_ = glfwGetTime();
+  };
+  static const auto kNotice = notice;
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { kNotice(w); });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { kNotice(w); });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { kNotice(w); });
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    kNotice(w);
+    UiState& ui = static_cast<App*>(glfwGetWindowUserPointer(w))->ui_;
+    if (action == GLFW_RELEASE) return;
+    if ((mods & GLFW_MOD_CONTROL) != 0) {
+      ui.quit |= key == GLFW_KEY_Q;
+      return;
+    }
+    if (action == GLFW_PRESS) ui.pressed.push_back(key);
+    ui.repeated.push_back(key);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { kNotice(w); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { kNotice(w); });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { kNotice(w); });
+}
+
 void App::setScale() {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
@@ -100,7 +128,7 @@ void App::run() {
   while (glfwWindowShouldClose(window_) == GLFW_FALSE && !ui_.quit && !cli::interrupted()) {
     waitForEvents();
     try {
-      drawFrame();
+      if (update()) drawFrame();
     } catch (const DeviceLost&) {
       recover();
     }
@@ -117,8 +145,8 @@ void App::run() {
 
 /// At rest the window costs nothing; while something runs it is drawn as often as the display shows it.
 void App::waitForEvents() {
-  const bool lively =
-      script_ || !session_->idle() || !choice_.screenshot.empty() || !choice_.window_screenshot.empty();
+  const bool lively = script_ || glfwGetTime() - input_s_ < kInputSeconds || !session_->idle() ||
+                      !choice_.screenshot.empty() || !choice_.window_screenshot.empty();
   const double since = glfwGetTime() - last_frame_s_;
   if (lively) {
     glfwWaitEventsTimeout(std::max(0.001, kLeastFrameSeconds - since));
@@ -135,15 +163,31 @@ void App::injectInput() {
   for (int i = 0; i < 3; ++i) io.MouseDown[i] = buttons_[i];
 }
 
-void App::drawFrame() {
+/// Takes and asks for pictures. True where the window shows something that it did not show before.
+bool App::update() {
   int width = 0, height = 0, window_width = 0, window_height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glfwGetWindowSize(window_, &window_width, &window_height);
-  const bool hidden = width <= 0 || height <= 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+  const bool hidden = width <= 0 || height <= 0 || window_width <= 0 ||
+                      glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
   if (hidden) {  // work goes on, nothing is drawn
     session_->update(0, 0);
-    return;
+    return false;
   }
+  place_ = layOut(ui_, {float(window_width), float(window_height)});
+  const float pixels = float(width) / float(window_width);
+  session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
+  const double since = glfwGetTime() - drawn_s_;
+  const bool fresh = uploaded_ != session_->pictureRevision() || glfwGetTime() - input_s_ < kInputSeconds ||
+                     (script_ && !script_->waits()) || ImGui::IsAnyMouseDown() || session_->moving();
+  return fresh || since > (session_->idle() ? kRestSeconds : kProgressSeconds);
+}
+
+void App::drawFrame() {
+  drawn_s_ = glfwGetTime();
+  int width = 0, height = 0, window_width = 0, window_height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  glfwGetWindowSize(window_, &window_width, &window_height);
   surface_->wait();
   if (std::exchange(letters_wanted_, false)) {
     unsigned char* pixels = nullptr;
@@ -154,9 +198,6 @@ void App::drawFrame() {
   }
   ui_.ui_device_ms = surface_->uiDeviceMs();
   const ImVec2 window{float(window_width), float(window_height)};
-  place_ = layOut(ui_, window);
-  const float pixels = window_width > 0 ? float(width) / float(window_width) : 1.0f;
-  session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
   uploadPictures();
   ImGui_ImplGlfw_NewFrame();
   injectInput();
@@ -167,6 +208,8 @@ void App::drawFrame() {
   drawOverlays(*session_, ui_, place_);
   drawInspector(*session_, ui_, place_);
   handleInput(*session_, ui_, place_, gizmo_has_mouse);
+  ui_.pressed.clear();
+  ui_.repeated.clear();
   ImGui::Render();
   if (!ui_.copied.empty()) glfwSetClipboardString(window_, std::exchange(ui_.copied, {}).c_str());
   surface_->show(width, height, *ImGui::GetDrawData());

@@ -42,6 +42,8 @@ class App {
   void createWindow();
   void setScale();
   void openSurface();
+  void noticeInput();
+  bool update();
   void drawFrame();
   void recover();
   void uploadPictures();
@@ -60,7 +62,7 @@ class App {
   std::uint64_t uploaded_ = 0;
   int recoveries_ = 0, errand_pictures_ = 0;
   bool letters_wanted_ = true, capture_asked_ = false, saved_ = false;
-  double last_frame_s_ = 0.0;
+  double input_s_ = 0.0, last_frame_s_ = 0.0, drawn_s_ = 0.0;
   std::optional<glm::vec2> mouse_;  ///< of a script, in place of the real one
   bool buttons_[3] = {};
 };

@@ -167,7 +167,7 @@ void DrawWorker::bring(const ViewState& state, Drawn&) {
       env_intensity_ == state.env_intensity && lights_ == state.lights.text()) {
     return;
   }
-  renderer_->setEnvironment(environmentOf(state));
+  renderer_->setEnvironment(describedLight(state));
   base_ = state.base;
   env_rotation_deg_ = state.env_rotation_deg;
   env_intensity_ = state.env_intensity;

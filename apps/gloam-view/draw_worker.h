@@ -86,7 +86,7 @@ class DrawWorker {
   std::shared_ptr<const LoadedScene> scene_;
   std::shared_ptr<const SceneSpheres> spheres_;
   std::shared_ptr<const SceneEmission> emission_;
-  std::shared_ptr<const Environment> base_;
+  std::shared_ptr<const DistantLight> base_;
   float env_rotation_deg_ = 0.0f, env_intensity_ = 1.0f, light_time_s_ = 0.0f;
   std::string lights_;
   std::thread thread_;

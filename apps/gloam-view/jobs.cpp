@@ -70,13 +70,11 @@ void Jobs::run() {
 
 void Jobs::runOne(const Job& job) {
   Progress progress;
+  // The window looks at it ten times a second: it needs no waking for each step.
   progress.update = [this](double fraction, const std::string& what) {
-    {
-      const std::lock_guard lock(mutex_);
-      status_.fraction = fraction;
-      status_.step = what;
-    }
-    wake_();
+    const std::lock_guard lock(mutex_);
+    status_.fraction = fraction;
+    status_.step = what;
   };
   progress.should_stop = [this] {
     const std::lock_guard lock(mutex_);

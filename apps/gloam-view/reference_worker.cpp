@@ -85,8 +85,7 @@ void ReferenceWorker::trace(const Request& request) {
   Progress progress;
   progress.should_stop = [this] { return superseded(); };
   const PosedScene posed = poseEdited(*state.scene, state.edits, state.time_s);
-  PathTracer tracer(state.scene->scene, posed, request.drawn->camera, environmentOf(state), options,
-                    progress);
+  PathTracer tracer(state.scene->scene, posed, request.drawn->camera, paintedLight(state), options, progress);
   const Clock::time_point started = Clock::now();
   Clock::time_point shown = started;
   while (tracer.samples() < request.max_samples) {

@@ -20,7 +20,11 @@ class Resolution {
   void add(double pixels, double milliseconds) {
     if (pixels < 1.0) return;
     const double cost = std::max(milliseconds - kBaseMs, 0.1) / pixels;
-    cost_ = cost_ <= 0.0 ? cost : cost > cost_ ? 0.5 * cost_ + 0.5 * cost : 0.7 * cost_ + 0.3 * cost;
+    cost_ = cost_ <= 0.0 ? cost : 0.5 * cost_ + 0.5 * cost;
+  }
+  /// Whether a picture that stands still took so little that one of more pixels is worth its time.
+  bool mayGrow(float scale_drawn, double milliseconds) const {
+    return fixed <= 0.0f && scale_drawn < 0.97f && milliseconds < 0.4 * double(still_ms);
   }
   void forget() { cost_ = 0.0; }
   /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time.

@@ -140,6 +140,12 @@ bool Script::play(App& app) {
   return !steps_.empty();
 }
 
+bool Script::waits() const {
+  if (steps_.empty()) return false;
+  const Step& step = steps_.front();
+  return step.what == "wait_s" || (step.what == "wait" && step.value.is_string());
+}
+
 bool Script::done(App& app, const Step& step) {
   const cli::Json& value = step.value;
   Session& session = app.session();

@@ -21,6 +21,8 @@ class Script {
   /// Plays on, once a frame of the window. False when all is played. Throws Error for what a step cannot do, and for a wait
   /// that takes too long.
   bool play(App& app);
+  /// Nothing to do but to wait for what runs: the window need not be drawn for it.
+  bool waits() const;
 
  private:
   struct Step {

@@ -59,6 +59,7 @@ void Session::say(const std::string& text, bool problem) {
 
 void Session::changed() {
   ++serial_;
+  growths_ = 0;
   last_change_s_ = now_s();
   if (response_serial_ == 0) {
     response_serial_ = serial_;
@@ -100,7 +101,8 @@ void Session::open(const std::string& name, bool ground) {
   const float time_s = first ? choice.view.time_s : 0.0f;
   const auto work = [this, choice, light, time_s](JobConsole& console) -> Jobs::Finish {
     Scene scene = cli::loadSceneToDraw(choice.scene, console);
-    auto base = std::make_shared<const Environment>(cli::chooseBaseEnvironment(scene, light, console));
+    auto base =
+        std::make_shared<const DistantLight>(mapLight(cli::chooseBaseEnvironment(scene, light, console)));
     const PosedScene posed = pose(scene, time_s);
     const PosedCamera posed_camera = cli::chooseCamera(posed, choice.view, console);
     auto loaded = makeLoadedScene(choice.scene.name, choice.scene.ground, std::move(scene));
@@ -118,7 +120,7 @@ void Session::open(const std::string& name, bool ground) {
   });
 }
 
-void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const Environment> base,
+void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base,
                     const PosedCamera&) {
   const bool first = std::exchange(first_, false);
   state.scene = std::move(scene);
@@ -144,7 +146,8 @@ void Session::openEnvironment(const std::string& name) {
   const auto scene = state.scene;
   const cli::LightChoice light{.environment = name, .light_texts = light_texts, .lights = state.lights};
   const auto work = [this, scene, light, name](JobConsole& console) -> Jobs::Finish {
-    auto base = std::make_shared<const Environment>(cli::chooseBaseEnvironment(scene->scene, light, console));
+    auto base = std::make_shared<const DistantLight>(
+        mapLight(cli::chooseBaseEnvironment(scene->scene, light, console)));
     return [this, base, name] {
       state.base = base;
       environment_name = name;

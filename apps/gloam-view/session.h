@@ -107,7 +107,7 @@ class Session {
 
  private:
   struct Opened;
-  void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const Environment> base,
+  void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base,
              const PosedCamera& camera);
   void adoptChoice(const ViewerChoice& choice);
   void prepare();
@@ -133,6 +133,8 @@ class Session {
   std::uint64_t switch_serial_ = 0;
   float duration_s_ = 0.0f;
   bool preparing_ = false, first_ = true;
+  int growths_ = 0;       ///< of a picture that stands still
+  std::string measured_;  ///< what was drawn last
   std::optional<glm::vec2> click_;
   std::deque<Message> messages_;
   FrameHistory history_;

@@ -14,6 +14,7 @@
 namespace gloam::view {
 namespace {
 
+constexpr int kMostGrowths = 3;
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
 
 }  // namespace
@@ -46,7 +47,17 @@ void Session::takeDrawn() {
     const bool said = std::ranges::any_of(messages_, [&](const Message& m) { return m.text == warning; });
     if (!said) say(warning);
   }
-  resolution.add(double(drawn->width) * drawn->height, drawn->left.frame_ms + drawn->right.frame_ms);
+  const double frame_ms = drawn->left.frame_ms + drawn->right.frame_ms;
+  const std::string kind = drawn->technique + (drawn->split ? state.right.info->name : "") + drawn->show;
+  if (std::exchange(measured_, kind) == kind) {  // the first of its kind compiles shaders
+    resolution.add(double(drawn->width) * drawn->height, frame_ms);
+  }
+  const float scale_drawn = float(drawn->height) / float(std::max(height_, 1));
+  if (drawn->serial == serial_ && still_serial_ == serial_ && !video_ && growths_ < kMostGrowths &&
+      resolution.mayGrow(scale_drawn, frame_ms)) {
+    ++growths_;
+    still_serial_ = 0;  // once more, larger
+  }
   history_.add(*drawn);
   if (state.display.auto_exposure) state.display = drawn->display;
   if (response_serial_ != 0 && drawn->serial >= response_serial_) {
@@ -162,7 +173,7 @@ cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
   json["time_s"] = cli::shortest(state.time_s);
   json["exposure"] = cli::shortest(state.display.exposure_stops);
   json["show"] = state.show;
-  json["environment"] = state.base ? state.base->name : "";
+  json["environment"] = state.base ? state.base->map->name : "";
   json["env_rotation"] = cli::shortest(state.env_rotation_deg);
   json["selected"] = selected_node;
   json["edits"] = state.edits.size();

@@ -21,6 +21,8 @@ struct UiState {
   double ui_device_ms = 0.0;
   std::string path;  ///< typed into "open"
   std::string preset = "preset.json", screenshot = "gloam.png", video = "gloam.mp4";
+  /// Keys since the last frame, each press and repeat: short ones between two slow frames count too.
+  std::vector<int> pressed, repeated;
   std::string copied;  ///< to the clipboard, by whoever owns it
 };
 

@@ -15,8 +15,11 @@ namespace {
 
 constexpr float kRadiansAPixel = 0.006f, kClickPixels = 4.0f;
 
-bool pressed(int key) {
-  return ImGui::IsKeyPressed(key, false);
+float times(const std::vector<int>& keys, int key) {
+  return float(std::ranges::count(keys, key));
+}
+bool among(const std::vector<int>& keys, int key) {
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 bool onDivider(const Session& session, const Place& place, const ImVec2& at, float scale) {
@@ -57,8 +60,8 @@ void mouse(Session& session, UiState& ui, const Place& place, bool gizmo_has_mou
              : button == 0 && onDivider(session, place, io.MousePos, ui.scale) ? Grip::kDivider
                                                                                : Grip::kPicture;
     }
-    if (io.MouseDown[button]) {
-      drag(session, place, grip, button);
+    if (io.MouseDown[button]) {  // where it went down it came from elsewhere: that is no drag
+      if (!ImGui::IsMouseClicked(button)) drag(session, place, grip, button);
       any |= grip == Grip::kPicture;
     } else {
       const ImVec2 from = io.MouseClickedPos[button];
@@ -98,22 +101,21 @@ void fly(Session& session) {
   session.changed();
 }
 
-void lightKeys(Session& session) {
+void lightKeys(Session& session, const UiState& ui) {
   ViewState& state = session.state;
-  const float stops = (ImGui::IsKeyPressed(GLFW_KEY_RIGHT_BRACKET) ? 0.25f : 0.0f) -
-                      (ImGui::IsKeyPressed(GLFW_KEY_LEFT_BRACKET) ? 0.25f : 0.0f);
-  const float degrees = (ImGui::IsKeyPressed(GLFW_KEY_PERIOD) ? 5.0f : 0.0f) -
-                        (ImGui::IsKeyPressed(GLFW_KEY_COMMA) ? 5.0f : 0.0f);
+  const float stops =
+      0.25f * times(ui.repeated, GLFW_KEY_RIGHT_BRACKET) - 0.25f * times(ui.repeated, GLFW_KEY_LEFT_BRACKET);
+  const float degrees =
+      5.0f * times(ui.repeated, GLFW_KEY_PERIOD) - 5.0f * times(ui.repeated, GLFW_KEY_COMMA);
   if (stops == 0.0f && degrees == 0.0f) return;
   state.display.exposure_stops = std::clamp(state.display.exposure_stops + stops, -50.0f, 50.0f);
   state.env_rotation_deg = std::remainder(state.env_rotation_deg + degrees, 360.0f);
   session.changed();
 }
 
-void timeKeys(Session& session) {
-  if (pressed(GLFW_KEY_SPACE)) session.play(!session.playing);
-  const float step = (ImGui::IsKeyPressed(GLFW_KEY_RIGHT) ? 1.0f : 0.0f) -
-                     (ImGui::IsKeyPressed(GLFW_KEY_LEFT) ? 1.0f : 0.0f);
+void timeKeys(Session& session, const UiState& ui) {
+  if (among(ui.pressed, GLFW_KEY_SPACE)) session.play(!session.playing);
+  const float step = 1.0f * times(ui.repeated, GLFW_KEY_RIGHT) - 1.0f * times(ui.repeated, GLFW_KEY_LEFT);
   if (step == 0.0f || session.duration_s() <= 0.0f) return;
   session.playing = false;
   session.setTime(session.state.time_s + step / 30.0f);
@@ -122,26 +124,26 @@ void timeKeys(Session& session) {
 void keys(Session& session, UiState& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
-  if (pressed(GLFW_KEY_TAB)) ui.panel = !ui.panel;
-  if (io.KeyCtrl && pressed(GLFW_KEY_Q)) ui.quit = true;
-  if (pressed(GLFW_KEY_F)) session.frameScene();
-  if (pressed(GLFW_KEY_G)) ui.turns = !ui.turns;
-  if (pressed(GLFW_KEY_C) && !io.KeyCtrl) session.setSplit(Split((int(session.state.split) + 1) % 3));
-  if (pressed(GLFW_KEY_ESCAPE)) session.selected_node = kNone;
-  if (pressed(GLFW_KEY_F2)) session.saveScreenshot(ui.screenshot);
-  if (pressed(GLFW_KEY_F3)) session.recording() ? session.stopVideo() : session.startVideo(ui.video);
-  if (pressed(GLFW_KEY_F5)) session.savePreset(ui.preset);
-  if (pressed(GLFW_KEY_F9)) session.loadPreset(ui.preset);
-  if (pressed(GLFW_KEY_I)) {
+  if (among(ui.pressed, GLFW_KEY_TAB)) ui.panel = !ui.panel;
+  if (among(ui.pressed, GLFW_KEY_F)) session.frameScene();
+  if (among(ui.pressed, GLFW_KEY_G)) ui.turns = !ui.turns;
+  if (among(ui.pressed, GLFW_KEY_C)) session.setSplit(Split((int(session.state.split) + 1) % 3));
+  if (among(ui.pressed, GLFW_KEY_ESCAPE)) session.selected_node = kNone;
+  if (among(ui.pressed, GLFW_KEY_F2)) session.saveScreenshot(ui.screenshot);
+  if (among(ui.pressed, GLFW_KEY_F3))
+    session.recording() ? session.stopVideo() : session.startVideo(ui.video);
+  if (among(ui.pressed, GLFW_KEY_F5)) session.savePreset(ui.preset);
+  if (among(ui.pressed, GLFW_KEY_F9)) session.loadPreset(ui.preset);
+  if (among(ui.pressed, GLFW_KEY_I)) {
     ui.inspector = !ui.inspector;
     session.state.layers = ui.inspector;
     session.changed();
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(techniques().size(), 9); ++i) {
-    if (pressed(GLFW_KEY_1 + int(i))) session.pick(kLeft, techniques()[i].name);
+    if (among(ui.pressed, GLFW_KEY_1 + int(i))) session.pick(kLeft, techniques()[i].name);
   }
-  timeKeys(session);
-  lightKeys(session);
+  timeKeys(session, ui);
+  lightKeys(session, ui);
   fly(session);
 }
 

@@ -67,8 +67,11 @@ void sceneSection(Session& session, UiState& ui) {
   ImGui::TextUnformatted(shortName(session.scene_name).c_str());
   if (!session.state.scene) return;
   const Scene& scene = session.state.scene->scene;
-  dim(fmt::format("{} meshes, {} triangles, {} lights", scene.meshes.size(), cli::countText(triangles(scene)),
-                  session.state.scene->light_nodes.size()));
+  const std::size_t lamps = session.state.scene->light_nodes.size();
+  dim(fmt::format("{} triangles in {} meshes, {}", cli::countText(triangles(scene)), scene.meshes.size(),
+                  lamps == 0   ? "no lamps"
+                  : lamps == 1 ? "1 lamp"
+                               : fmt::format("{} lamps", lamps)));
 }
 
 void techniqueSection(Session& session) {
@@ -93,9 +96,9 @@ void lightSection(Session& session) {
   ViewState& state = session.state;
   label("from afar", "An .exr or .hdr dropped on the window takes its place");
   const std::string& named = session.environment_name;
-  const std::string shown = !named.empty()                       ? shortName(named)
-                            : state.base && !state.base->empty() ? state.base->name
-                                                                 : "none";
+  const std::string shown = !named.empty()                            ? shortName(named)
+                            : state.base && !state.base->map->empty() ? state.base->map->name
+                                                                      : "none";
   if (ImGui::BeginCombo("##env", shown.c_str())) {
     if (ImGui::Selectable("the scene's own", named.empty())) session.openEnvironment("");
     if (ImGui::Selectable("none", named == "none")) session.openEnvironment("none");

@@ -104,12 +104,25 @@ PosedScene poseEdited(const LoadedScene& loaded, const NodeEdits& edits, float t
   return posed;
 }
 
-Environment environmentOf(const ViewState& state) {
-  Environment environment = state.base ? *state.base : Environment{};
-  environment.rotation_rad += glm::radians(state.env_rotation_deg);
-  environment.intensity *= state.env_intensity;
-  if (state.lights.empty()) return environment;
-  return paintLights(environment, state.lights.at(state.time_s));
+Environment describedLight(const ViewState& state) {
+  std::vector<DistantLight> lights = state.lights.at(state.time_s);
+  if (state.base && !state.base->map->empty()) {
+    DistantLight base = *state.base;
+    base.rotation_rad += glm::radians(state.env_rotation_deg);
+    base.intensity *= state.env_intensity;
+    lights.insert(lights.begin(), std::move(base));
+  }
+  return describeLights(std::move(lights));
+}
+
+Environment paintedLight(const ViewState& state) {
+  Environment environment;
+  if (state.base) {
+    environment = *state.base->map;
+    environment.rotation_rad += state.base->rotation_rad + glm::radians(state.env_rotation_deg);
+    environment.intensity *= state.base->intensity * state.env_intensity;
+  }
+  return state.lights.empty() ? environment : paintLights(environment, state.lights.at(state.time_s));
 }
 
 }  // namespace gloam::view

@@ -44,8 +44,8 @@ enum class Split { kNone, kTechnique, kReference };
 
 struct ViewState {
   std::shared_ptr<const LoadedScene> scene;
-  Needs needs;                              ///< spheres and the like, of that scene
-  std::shared_ptr<const Environment> base;  ///< light from afar before `env_rotation_deg` and `env_intensity`
+  Needs needs;                               ///< spheres and the like, of that scene
+  std::shared_ptr<const DistantLight> base;  ///< light from afar, before it is turned and scaled
   float env_rotation_deg = 0.0f, env_intensity = 1.0f;
   AnimatedLights lights;
   NodeEdits edits;
@@ -69,7 +69,9 @@ void moveNode(const Scene& scene, NodeEdits& edits, int node, const glm::mat4& m
 PosedScene poseEdited(const LoadedScene& loaded, const NodeEdits& edits, float time_s);
 /// Middles of all instances as they stand.
 std::vector<glm::vec3> instancePlaces(const LoadedScene& loaded, const PosedScene& posed);
-/// The light at its time, turned and scaled.
-Environment environmentOf(const ViewState& state);
+/// The light at its time, turned and scaled: described, for the renderer, in microseconds.
+Environment describedLight(const ViewState& state);
+/// The same painted, for the path tracer.
+Environment paintedLight(const ViewState& state);
 
 }  // namespace gloam::view

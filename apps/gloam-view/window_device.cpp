@@ -84,7 +84,7 @@ void WindowDevice::release() {
 void WindowDevice::createInstance() {
   std::uint32_t count = 0;
   const char** needed = glfwGetRequiredInstanceExtensions(&count);
-  if (needed == nullptr) throw Error("window", "the Vulkan loader knows no surfaces of this display");
+  if (needed == nullptr) throw Error("window", kNoDriver);  // no driver that knows this display
   std::vector<const char*> extensions(needed, needed + count);
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "gloam-view";

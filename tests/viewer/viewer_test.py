@@ -1,0 +1,266 @@
+#!/usr/bin/env python3
+# gloam - real-time soft global illumination
+# SPDX-License-Identifier: MIT
+"""gloam-view under Xvfb, with the validation layer on: real mouse and keys by xdotool, and scripts."""
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+GLOAM = os.environ["GLOAM"]
+VIEW = os.environ["GLOAM_VIEW"]
+BOX = "builtin:cornell?detail=0.25"
+SMALL = ["--size", "640x420"]
+
+
+def png_size_and_rows(path):
+    """Width, height and unfiltered rows of an 8-bit PNG without interlace."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, _, color = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
+    raw, rows, stride = zlib.decompress(packed), [], width * channels
+    before = bytearray(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            a = line[i - channels] if i >= channels else 0
+            b, c = before[i], before[i - channels] if i >= channels else 0
+            if kind == 1:
+                line[i] = (line[i] + a) & 255
+            elif kind == 2:
+                line[i] = (line[i] + b) & 255
+            elif kind == 3:
+                line[i] = (line[i] + (a + b) // 2) & 255
+            elif kind == 4:
+                p = a + b - c
+                pick = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+                line[i] = (line[i] + pick) & 255
+        rows.append(line)
+        before = line
+    return width, height, rows
+
+
+class Display:
+    """An X server of its own; its number goes into DISPLAY."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "3840x2160x24", "-nolisten", "tcp"],
+            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as answer:
+            number = answer.readline().strip()
+        if not number:
+            raise RuntimeError("Xvfb does not start")
+        self.name = f":{number}"
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait(10)
+
+
+class ViewerTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display()
+        cls.cache = tempfile.mkdtemp(prefix="gloam-view-cache-")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.display.close()
+        shutil.rmtree(cls.cache, ignore_errors=True)
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="gloam-view-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.environment = dict(os.environ, DISPLAY=self.display.name, XDG_CACHE_HOME=self.cache,
+                                XDG_CONFIG_HOME=str(self.folder / "config"), GLOAM_VALIDATION="1")
+
+    def view(self, *arguments, environment=None):
+        return subprocess.run([VIEW, *map(str, arguments)], cwd=self.folder, env=environment or self.environment,
+                              capture_output=True, text=True, errors="replace", timeout=120, check=False)
+
+    def succeed(self, *arguments):
+        result = self.view(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("validation", result.stderr.lower())
+
+    def refuse(self, *arguments, says, environment=None):
+        result = self.view(*arguments, environment=environment)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertTrue(result.stderr.startswith("gloam-view: "), result.stderr)
+        self.assertIn(says, result.stderr)
+
+    def script(self, steps, *arguments):
+        """Plays the steps; what `stats` steps wrote, by name."""
+        (self.folder / "steps.json").write_text(json.dumps(steps))
+        self.succeed(*(arguments or (BOX, *SMALL)), "--script", "steps.json")
+
+    def stats(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    # ---- bad input -------------------------------------------------------------------------------------------------
+
+    def test_refusals_are_one_line(self):
+        bare = {k: v for k, v in self.environment.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.refuse(says="`gloam render`", environment=bare)
+        self.refuse("--technique", "nonsense", says="nonsense")
+        self.refuse("nothing.glb", says="nothing.glb")
+        (self.folder / "bad.json").write_text('[{"fly": 1}]')
+        self.refuse("--script", "bad.json", says="steps[0]: no step 'fly'")
+        no_driver = dict(self.environment, VK_ICD_FILENAMES="/nonexistent.json", VK_DRIVER_FILES="/nonexistent.json")
+        self.refuse(BOX, says="mesa-vulkan-drivers", environment=no_driver)
+
+    # ---- pictures --------------------------------------------------------------------------------------------------
+
+    def test_screenshots_show_what_render_draws(self):
+        self.succeed(BOX, *SMALL, "--no-panel", "--scale", "1", "--screenshot", "view.png", "--frames", "2")
+        self.succeed(BOX, *SMALL, "--no-panel", "--scale", "0.5", "--screenshot", "view.exr")
+        subprocess.run([GLOAM, "render", BOX, "--size", "640x420", "-o", "render.png", "--quiet"], cwd=self.folder,
+                       env=self.environment, check=True, timeout=60)
+        width, height, view = png_size_and_rows(self.folder / "view.png")
+        self.assertEqual((width, height), (640, 420))
+        _, _, render = png_size_and_rows(self.folder / "render.png")
+        view_bytes, render_bytes = b"".join(map(bytes, view)), b"".join(map(bytes, render))
+        if len(view_bytes) == len(render_bytes):
+            differing = sum(abs(a - b) > 2 for a, b in zip(view_bytes[::7], render_bytes[::7]))
+            self.assertLess(differing, len(view_bytes) // 7 // 100)
+        info = subprocess.run([GLOAM, "info", "view.exr", "--json"], cwd=self.folder, env=self.environment,
+                              capture_output=True, text=True, check=True, timeout=60)
+        self.assertIn("indirect", info.stdout)
+
+    def test_presets_go_to_render_and_back(self):
+        self.script([
+            {"wait": "idle"},
+            {"set": {"exposure": 0.5, "env": "sky:noon", "env_rotation": 40, "irradiance.order": 4, "background": False}},
+            {"drag": [200, 200, 260, 180]}, {"wait": "idle"},
+            {"save_preset": "preset.json"}, {"stats": "before.json"},
+            {"set": {"exposure": -2, "env_rotation": 0, "env": "none", "irradiance.order": 2}}, {"key": "f"}, {"wait": "idle"},
+            {"load_preset": "preset.json"}, {"wait": "idle"}, {"stats": "after.json"}])
+        before, after = self.stats("before.json"), self.stats("after.json")
+        for key in ["exposure", "env_rotation", "settings", "environment"]:
+            self.assertEqual(before[key], after[key], key)
+        for a, b in zip(before["camera"]["eye"], after["camera"]["eye"]):
+            self.assertAlmostEqual(a, b, places=3)
+        self.assertEqual(before["settings"]["order"], 4)
+        done = subprocess.run([GLOAM, "render", BOX, "--settings", "preset.json", "--size", "48x32", "--json", "-o", "p.png"],
+                              cwd=self.folder, env=self.environment, capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["settings"]["order"], 4)
+
+    # ---- drops, sizes, devices -------------------------------------------------------------------------------------
+
+    def test_drops_sizes_and_lost_devices(self):
+        (self.folder / "no.glb").write_bytes(b"not a scene at all")
+        (self.folder / "no.json").write_text('{"exposure": "bright"}')
+        (self.folder / "no.hdr").write_bytes(b"#?RADIANCE\nFORMAT=nothing\n\n")
+        subprocess.run([GLOAM, "scene", "lamp", "-o", "lamp.glb", "--quiet"], cwd=self.folder, env=self.environment,
+                       check=True, timeout=60)
+        self.script([
+            {"wait": "idle"},
+            {"drop": "no.glb"}, {"wait": "idle"}, {"drop": "no.json"}, {"drop": "no.hdr"}, {"wait": "idle"},
+            {"stats": "bad.json"}, {"drop": "lamp.glb"}, {"wait": "idle"}, {"stats": "good.json"},
+            {"resize": [1, 1]}, {"wait": 10}, {"resize": [3840, 2160]}, {"set": {"scale": 0.1}}, {"wait": "idle"},
+            {"window_screenshot": "large.png"}, {"resize": [640, 420]}, {"wait": "idle"},
+            {"minimise": True}, {"wait": 5}, {"restore": True}, {"wait": "idle"},
+            {"lose_device": True}, {"wait": 3}, {"wait": "idle"}, {"stats": "end.json"}])
+        bad = "\n".join(self.stats("bad.json")["messages"])
+        for name in ["no.glb", "no.json", "no.hdr"]:
+            self.assertIn(name, bad)
+        self.assertEqual(self.stats("bad.json")["scene"], BOX)
+        self.assertEqual(self.stats("good.json")["scene"], "lamp.glb")
+        data = (self.folder / "large.png").read_bytes()
+        self.assertEqual(struct.unpack(">II", data[16:24]), (3840, 2160))
+        self.assertIn("the renderer starts anew", "\n".join(self.stats("end.json")["messages"]))
+
+    # ---- switching ---------------------------------------------------------------------------------------------------
+
+    def test_switching_leaks_nothing(self):
+        switches = [{"set": {"technique": "proxies"}}, {"wait": 2}, {"set": {"technique": "irradiance"}}, {"wait": 2}]
+        self.script([
+            {"wait": "idle"}, {"set": {"technique": "proxies"}}, {"wait": "idle"}, {"set": {"technique": "irradiance"}},
+            {"wait": "idle"}, {"repeat": 4, "steps": switches}, {"wait": "idle"}, {"stats": "before.json"},
+            {"repeat": 25, "steps": switches}, {"wait": "idle"}, {"stats": "after.json"},
+            {"set": {"split": "technique", "right": "proxies", "divider": 0.3}}, {"wait": "idle"}, {"screenshot": "split.png"}],
+            "builtin:balls?detail=0.25", "--size", "520x360", "--scale", "0.25", "--proxies.spheres", "5")
+        self.assertTrue((self.folder / "split.png").exists())
+        before, after = self.stats("before.json"), self.stats("after.json")
+        self.assertGreater(after["pictures"], before["pictures"] + 20)
+        self.assertEqual(before["ui_objects"], after["ui_objects"])
+        self.assertLess(after["memory_bytes"], before["memory_bytes"] * 1.01)  # small buffers follow the moving parts
+        names = [{m["name"].removesuffix(".odd").removesuffix(".even") for m in stats["memory"]} for stats in (before, after)]
+        self.assertEqual(names[0], names[1])
+        self.assertLessEqual(after["input_to_picture"], 2)
+
+    # ---- comparison ------------------------------------------------------------------------------------------------------
+
+    def test_reference_refines_and_measures(self):
+        self.script([
+            {"wait": "idle"}, {"set": {"reference_samples": 4, "split": "reference"}}, {"wait": "reference"},
+            {"stats": "reference.json"}, {"set": {"split": "none", "show": "normal"}}, {"wait": "idle"},
+            {"screenshot": "normal.png"}], BOX, *SMALL, "--scale", "0.2")
+        reference = self.stats("reference.json")["reference"]
+        self.assertGreaterEqual(reference["samples"], 4)
+        self.assertGreater(reference["relative_rmse"], 0.0)
+        self.assertTrue((self.folder / "normal.png").exists())
+
+    # ---- a person's hand ---------------------------------------------------------------------------------------------
+
+    def xdotool(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True,
+                              check=True, timeout=30).stdout.strip()
+
+    def test_mouse_and_keys(self):
+        process = subprocess.Popen([VIEW, BOX, *SMALL, "--stats", "stats.json"], cwd=self.folder, env=self.environment,
+                                   stderr=subprocess.PIPE, text=True)
+        try:
+            window = self.xdotool("search", "--sync", "--name", "gloam-view").splitlines()[0]
+            time.sleep(1.0)
+            self.xdotool("windowfocus", window)
+            self.xdotool("windowmove", window, 0, 0)
+            self.xdotool("mousemove", 120, 150, "mousedown", 1)
+            for x in range(130, 200, 10):
+                self.xdotool("mousemove", x, 150)
+                time.sleep(0.03)
+            self.xdotool("mouseup", 1)
+            for key in ["Tab", "bracketright", "bracketright", "period"]:
+                self.xdotool("key", key)
+                time.sleep(0.15)
+            time.sleep(0.5)
+            self.xdotool("key", "ctrl+q")
+            _, problems = process.communicate(timeout=60)
+        finally:
+            process.kill()
+        self.assertEqual(process.returncode, 0, problems)
+        stats = self.stats("stats.json")
+        self.assertFalse(stats["panel"])
+        self.assertAlmostEqual(stats["exposure"], 0.5, places=5)
+        self.assertAlmostEqual(stats["env_rotation"], 5.0, places=4)
+        eye, target = stats["camera"]["eye"], stats["camera"]["target"]
+        self.assertGreater(abs(eye[0] - target[0]), 0.05)  # the room's camera looks straight along z
+
+
+if __name__ == "__main__":
+    for tool in ["Xvfb", "xdotool"]:
+        if shutil.which(tool) is None:
+            print(f"skipped: {tool} is not installed")
+            sys.exit(77)
+    unittest.main(verbosity=1)
