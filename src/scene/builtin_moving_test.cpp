@@ -109,6 +109,31 @@ INSTANTIATE_TEST_SUITE_P(All, MovingScenes,
                                          Moving{"links", 1.0f, true}, Moving{"bars", 2.0f, false}),
                          [](const testing::TestParamInfo<Moving>& info) { return info.param.name; });
 
+// One skin of all parts moves as they do.
+TEST(RobotScene, TheSkinIsTheSumOfTheParts) {
+  const Scene parts = makeBuiltinScene("robot?detail=0.25"),
+              skin = makeBuiltinScene("robot?detail=0.25&skin=1");
+  const auto sumOf = [](const Scene& scene, float time_s) {
+    glm::dvec3 sum(0.0);
+    std::size_t count = 0;
+    for (const Instance& instance : pose(scene, time_s).instances) {
+      const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+      count += mesh.vertexCount();
+      for (std::size_t i = 0; i < mesh.vertexCount(); ++i)
+        sum += glm::dvec3(instance.deformed()
+                              ? instance.deformed_positions[i]
+                              : glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[i], 1.0f)));
+    }
+    return std::pair(sum / double(count), count);
+  };
+  for (const float t : {0.0f, 0.7f, 2.4f}) {
+    const auto [a, na] = sumOf(parts, t);
+    const auto [b, nb] = sumOf(skin, t);
+    EXPECT_EQ(na, nb);
+    EXPECT_LT(glm::length(a - b), 1e-6) << t;
+  }
+}
+
 glm::vec3 middleOf(const Scene& scene, float time_s, const std::string& name) {
   for (const Instance& instance : pose(scene, time_s).instances) {
     if (scene.nodes[std::size_t(instance.node)].name == name) return glm::vec3(instance.world_from_object[3]);

@@ -1,10 +1,11 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// A tin robot that marches on the spot and waves: rigid parts on joints, each a node of its own.
+// A tin robot that marches on the spot and waves: rigid parts on joints, each a node of its own, or one skin.
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "scene/builtin_shapes.h"
 #include "scene/painted_patterns.h"
@@ -91,8 +92,8 @@ Mesh barrel(float from, float to, float radius_top, float radius_bottom, const D
 
 class Robot {
  public:
-  Robot(SceneBuilder& builder, const Detail& detail)
-      : builder_(builder), detail_(detail), paints_(makePaints(builder)) {}
+  Robot(SceneBuilder& builder, const Detail& detail, bool as_skin)
+      : builder_(builder), detail_(detail), as_skin_(as_skin), paints_(makePaints(builder)) {}
 
   void build() {
     pelvis_ = part("pelvis", kNone, {0, kAnkle_m + 2 * kLeg_m, 0});
@@ -120,6 +121,14 @@ class Robot {
       arm(side);
       leg(side);
     }
+    if (!as_skin_) return;
+    const int body = builder_.node("robot");
+    for (auto& [material, mesh] : skinned_) {
+      mesh.influences = 4;
+      builder_.at(body).meshes.push_back(
+          builder_.mesh(builder_.material(material).name, std::move(mesh), material));
+    }
+    builder_.at(body).skin = builder_.skin(joints_, std::move(joint_from_mesh_));
   }
 
   void animate();
@@ -129,8 +138,23 @@ class Robot {
     return builder_.node(name, parent, at);
   }
   void add(int node, Mesh mesh, int material) {
+    if (as_skin_) return addToSkin(node, mesh, material);
     const std::string name = builder_.at(node).name;
     builder_.at(node).meshes.push_back(builder_.mesh(name, std::move(mesh), material));
+  }
+  /// All that is of one material becomes one mesh, each vertex of which follows one joint.
+  void addToSkin(int node, const Mesh& mesh, int material) {
+    if (joints_.empty() || joints_.back() != node) joints_.push_back(node);
+    glm::vec3 at(0.0f);  // nothing is turned at rest
+    for (int n = node; n != kNone; n = builder_.at(n).parent) at += builder_.at(n).translation;
+    joint_from_mesh_.resize(joints_.size(), glm::translate(glm::mat4(1.0f), -at));
+    Mesh& whole = skinned_[material];
+    shapes::append(whole, shapes::moved(mesh, at));
+    const auto joint = std::uint16_t(joints_.size() - 1);
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+      whole.joints.insert(whole.joints.end(), {joint, 0, 0, 0});
+      whole.weights.insert(whole.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+    }
   }
   void joint(int node, float radius) { add(node, shapes::icosphere(radius, detail_(8)), paints_.rubber); }
 
@@ -176,9 +200,13 @@ class Robot {
 
   SceneBuilder& builder_;
   Detail detail_;
+  bool as_skin_;
   Paints paints_;
   int pelvis_ = kNone, torso_ = kNone, head_ = kNone;
   std::array<int, 2> upper_arm_{}, forearm_{}, hand_{}, thigh_{}, shin_{}, foot_{};
+  std::map<int, Mesh> skinned_;  // by material
+  std::vector<int> joints_;
+  std::vector<glm::mat4> joint_from_mesh_;
 };
 
 constexpr float kBeat_s = 1.0f;  // each foot is lifted every second beat
@@ -239,7 +267,8 @@ void Robot::animate() {
 
 }  // namespace
 
-Scene makeRobot(const Detail& detail, NamedValues&) {
+Scene makeRobot(const Detail& detail, NamedValues& values) {
+  const bool as_skin = values.take("skin", 0, 0, 1) >= 0.5;
   SceneBuilder builder("robot");
   const float cell = detail.cell(0.07f);
   builder.place("floor", shapes::withUvScale(shapes::slab(1.75f, 1.6f, 0.2f, 0.02f, cell), {2.1875f, 2.0f}),
@@ -254,7 +283,7 @@ Scene makeRobot(const Detail& detail, NamedValues&) {
       shapes::moved(shapes::roundedBox({0.06f, 1.05f, 1.37f}, 0.02f, 1.5f * cell, 2), {0, 1.05f, 0}),
       addPlaster(builder, "side plaster", {0.68f, 0.66f, 0.6f}, {0.5f, 0.1f, 0.06f}, 0.62f, 1.1f),
       {-1.69f, 0.001f, 0.375f});
-  Robot robot(builder, detail);
+  Robot robot(builder, detail, as_skin);
   robot.build();
   robot.animate();
   builder.camera({1.5f, 1.35f, 3.3f}, {-0.06f, 0.75f, -0.05f}, 32);

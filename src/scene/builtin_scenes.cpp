@@ -45,7 +45,7 @@ const std::vector<Entry>& entries() {
       {{"squirrel",
         "a squirrel and six balls slide down a box that leans (4 s): rigid motion, strong colours"},
        makeSquirrel},
-      {{"robot", "a tin robot marches and waves (4 s, loops): rigid parts on joints"}, makeRobot},
+      {{"robot", "a tin robot marches and waves (4 s, loops; skin): rigid parts on joints"}, makeRobot},
       {{"packages", "two soft bags jump and wobble (4 s, loops): a skin and a morph target"}, makePackages},
       {{"assembly", "toys are put together on a line under a lamp that moves (4 s, loops)"}, makeAssembly},
       {{"balls", "one to five painted balls over a pale ground (4 s, loops; count)"}, makeBalls},
