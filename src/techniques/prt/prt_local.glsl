@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// How much each of an object's probes counts at a place: inverse distance to the sixth (Shepard 1968), softened so that
+// How much each of an object's probes counts at a place: inverse squared distance, squared (Shepard 1968), softened so that
 // the weight has no peak at a probe, times how far the probe is to be trusted. The includer defines `points` (how many),
 // probe_places and trust.
 #ifndef GLOAM_PRT_LOCAL_GLSL
@@ -13,7 +13,7 @@ void localWeights(LocalRow row, vec3 place, out float weights[kMostLocalPoints])
   for (int k = 0; k < points; ++k) {
     vec3 between = probe_places.at[row.first_probe + uint(k)] - place;
     float near = row.softness / (dot(between, between) + row.softness);
-    weights[k] = near * near * near;
+    weights[k] = near * near;
     sum += weights[k];
     trusted += weights[k] * trust.at[row.first_probe + uint(k)];
   }
