@@ -104,7 +104,18 @@ Progress partOf(const Progress& whole, double begin, double end) {
   return part;
 }
 
-int runDiff(const DiffChoice& choice, Console& console) {
+/// Options of pictures that nobody asked for.
+void refuseIdleOptions(const CLI::App& app, const DiffPictures& pictures) {
+  if (!pictures.folder.empty()) return;  // all pictures are there
+  if (app.get_option("--factor")->count() > 0 && pictures.difference.empty() &&
+      pictures.signed_difference.empty())
+    throw Error("--factor", "--difference, --signed-difference or -o was expected with it");
+  if (app.get_option("--top")->count() > 0 && pictures.false_color.empty())
+    throw Error("--top", "--false-color or -o was expected with it");
+}
+
+int runDiff(const DiffChoice& choice, const CLI::App& app, Console& console) {
+  refuseIdleOptions(app, choice.pictures);
   displayOf(choice, false);  // what is typed wrong is said before any work
   DiffOutput output(choice.pictures, choice.inputs);
   std::string remark;
@@ -214,7 +225,7 @@ std::function<int()> declareDiff(CLI::App& app, Console& console) {
   addPictureOptions(app, choice->pictures);
   addConsoleOptions(app, console, true);
   addBoundOptions(app, *choice);
-  return [choice, &console] { return runDiff(*choice, console); };
+  return [choice, &app, &console] { return runDiff(*choice, app, console); };
 }
 
 }  // namespace

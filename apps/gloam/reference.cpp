@@ -193,8 +193,14 @@ void printResult(const ReferenceChoice& choice, const Stage& stage, const Total&
 
 int runReference(ReferenceChoice choice, Console& console) {
   if (choice.output.empty()) {
-    choice.output = sceneStem(choice.scene.name) + (choice.motion.moves() ? "_reference" : "_reference.exr");
+    const char* end = !choice.motion.moves() ? "_reference.exr"
+                      : choice.separate      ? "_reference_####.exr"
+                                             : "_reference";
+    choice.output = sceneStem(choice.scene.name) + end;
   }
+  if (choice.separate && fs::path(choice.output).extension() != ".exr")
+    throw Error("--parts",
+                fmt::format("{} cannot hold layers; x.exr or x_####.exr was expected", choice.output));
   refuseOverwriting(choice.output, choice.scene.name);
   refuseOverwriting(choice.output, choice.light.environment);
   const std::vector<PlannedFrame> frames = planFrames(choice.motion, choice.view.time_s);
@@ -272,7 +278,8 @@ std::function<int()> declareReference(CLI::App& app, Console& console) {
   addViewOptions(app, choice->view);
   addMotionOptions(app, choice->motion);
   addDisplayOptions(app, choice->display);
-  app.add_flag("--parts", choice->separate, "one more layer of the .exr for each source and path")
+  app.add_flag("--parts", choice->separate,
+               "one more layer of the .exr for each source and path; x.exr or x_####.exr alone")
       ->group("Output");
   app.add_flag("--resume,!--no-resume", choice->resume,
                "go on from an interrupted run of the same output, or start anew [on]");

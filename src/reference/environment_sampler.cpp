@@ -34,12 +34,12 @@ constexpr std::int64_t kMostOfAll = std::int64_t(1) << 27;
 
 // The slow twin of findKernel's.
 int blockAt(const SkyTable& sky, float x, float y) {
-  const int unit_x = int(x * float(kSkyParts)), unit_y = int(y * float(kSkyParts));
-  int bit = sky.tile_bits + kSkyPartBits;
-  std::int32_t entry = sky.tiles[std::size_t((unit_y >> bit) * sky.tiles_across + (unit_x >> bit))];
+  const int cell_x = int(x), cell_y = int(y);
+  int bit = sky.tile_bits;
+  std::int32_t entry = sky.tiles[std::size_t((cell_y >> bit) * sky.tiles_across + (cell_x >> bit))];
   while (entry < 0) {
     --bit;
-    entry = sky.nodes[std::size_t(~entry + ((unit_y >> bit) & 1) * 2 + ((unit_x >> bit) & 1))];
+    entry = sky.nodes[std::size_t(~entry + ((cell_y >> bit) & 1) * 2 + ((cell_x >> bit) & 1))];
   }
   return entry;
 }
@@ -48,25 +48,23 @@ int blockAt(const SkyTable& sky, float x, float y) {
 
 EnvironmentSampler::EnvironmentSampler(const Environment& environment, int order) {
   if (environment.empty()) return;
-  const auto texels = std::int64_t(environment.width) * environment.height;
-  if (std::max(environment.width, environment.height) > kMostTexels || texels > kMostOfAll)
+  const auto count = std::int64_t(environment.width) * environment.height;
+  if (std::max(environment.width, environment.height) > kMostTexels || count > kMostOfAll)
     throw Error("environment", fmt::format("{} x {} texels; the reference takes {} each way and {} in all",
                                            environment.width, environment.height, kMostTexels, kMostOfAll));
-  if (order > 0) {
-    fillProjection(environment, order);
-  } else {
-    fillPixels(environment);
-  }
-  fillBlocks(sky_);
+  const Texels texels = order > 0 ? fillProjection(environment, order) : fillPixels(environment);
+  fillCells(texels.radiance);
+  fillBlocks(sky_, texels.importance);
 }
 
-void EnvironmentSampler::fillPixels(const Environment& environment) {
+EnvironmentSampler::Texels EnvironmentSampler::fillPixels(const Environment& environment) {
   const int width = sky_.width = environment.width, height = sky_.height = environment.height;
   sky_.cos_rotation = std::cos(environment.rotation_rad);
   sky_.sin_rotation = std::sin(environment.rotation_rad);
   sky_.turned = 0.5f + std::remainder(environment.rotation_rad / (2.0f * kPi), 1.0f);
-  std::vector<glm::vec4> texels;  // with a border around
-  texels.reserve(std::size_t(width + 1) * std::size_t(height + 2));
+  Texels texels;
+  texels.radiance.reserve(std::size_t(width + 1) * std::size_t(height + 2));
+  texels.importance.reserve(texels.radiance.capacity());
   for (int row = 0; row < height + 2; ++row) {
     const int from_row = std::clamp(row - 1, 0, height - 1);
     for (int column = 0; column < width + 1; ++column) {
@@ -74,42 +72,65 @@ void EnvironmentSampler::fillPixels(const Environment& environment) {
       const glm::vec3 radiance =
           environment.intensity *
           environment.radiance[std::size_t(from_row) * std::size_t(width) + std::size_t(from_column)];
-      texels.emplace_back(radiance, importanceOf(radiance));
+      texels.radiance.push_back(packed(radiance));
+      texels.importance.push_back(importanceOf(radiance));
     }
   }
-  fillTexels(texels);
+  return texels;
 }
 
-void EnvironmentSampler::fillProjection(const Environment& environment, int order) {
+EnvironmentSampler::Texels EnvironmentSampler::fillProjection(const Environment& environment, int order) {
   projection_ = sh::truncated(projectEnvironment(environment, sh::kMaxOrder), order);
   const int width = sky_.width = kProjectionWidth, height = sky_.height = kProjectionHeight;
   Environment grid;  // for its directions alone
   grid.width = width;
   grid.height = height;
-  std::vector<glm::vec4> texels;
+  Texels texels;
   double mean = 0.0;
   for (int row = 0; row < height + 2; ++row) {
     for (int column = 0; column < width + 1; ++column) {
       const glm::vec3 direction =
           texelDirection(grid, (column + width - 1) % width, std::clamp(row - 1, 0, height - 1));
       const float importance = importanceOf(sh::valueAt(projection_, direction));
-      texels.emplace_back(0.0f, 0.0f, 0.0f, importance);
+      texels.importance.push_back(importance);
       mean += double(importance) * double(std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y)));
     }
   }
   mean *= 0.5 * double(kPi) / (double(width + 1) * double(height + 2));
   if (mean > 0.0)
-    for (glm::vec4& texel : texels) texel.w += kEvenShare * float(mean);
-  fillTexels(texels);
+    for (float& texel : texels.importance) texel += kEvenShare * float(mean);
+  return texels;
 }
 
-void EnvironmentSampler::fillTexels(const std::vector<glm::vec4>& texels) {
+void EnvironmentSampler::fillCells(const std::vector<SkyTexel>& texels) {
+  if (texels.empty()) return;
   const std::size_t width = std::size_t(sky_.width + 1), cells = width * std::size_t(sky_.height + 1);
   sky_.texels.reserve(2 * cells);
   for (std::size_t i = 0; i < cells; ++i) {
     sky_.texels.push_back(texels[i]);
     sky_.texels.push_back(texels[i + width]);
   }
+}
+
+SkyTexel packed(const glm::vec3& radiance) {
+  constexpr int kBits = 18, kBias = 127;
+  const float largest = std::max(radiance.r, std::max(radiance.g, radiance.b));
+  if (!(largest > 0.0f)) return {};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const int unit = std::clamp(exponent - kBits, 1 - kBias, 254 - kBias);
+  const auto part = [&](float c) {
+    const float steps = std::nearbyint(std::ldexp(std::max(c, 0.0f), -unit));
+    return std::uint32_t(std::min(steps, float((1 << kBits) - 1)));
+  };
+  const std::uint32_t r = part(radiance.r), g = part(radiance.g), b = part(radiance.b);
+  return {r | (g << kBits), (g >> 14) | (b << 4) | (std::uint32_t(unit + kBias) << 22)};
+}
+
+glm::vec3 unpacked(const SkyTexel& t) {
+  const glm::vec3 steps(float(t.low & 0x3ffffu), float((t.low >> 18) | ((t.high & 15u) << 14)),
+                        float((t.high >> 4) & 0x3ffffu));
+  return steps * std::ldexp(1.0f, int(t.high >> 22) - 127);
 }
 
 void EnvironmentSampler::radiance(const SkyPlaces& places, const LaneVectors& directions, std::uint32_t mask,
@@ -137,14 +158,18 @@ EnvironmentSampler::Light EnvironmentSampler::from(const glm::vec3& d) const {
   const float elevation = angles::turns(d.y, cos_elevation);
   const float y = std::clamp((0.5f - 2.0f * elevation) * float(height) + 0.5f, 0.5f, float(height) + 0.5f);
   const int cell_x = std::clamp(int(x), 0, width - 1), cell_y = std::clamp(int(y), 0, height);
-  const glm::vec4* t = cell(cell_x, cell_y);
-  const float right = x - float(cell_x), down = y - float(cell_y);
-  const glm::vec4 light = glm::mix(glm::mix(t[0], t[1], down), glm::mix(t[2], t[3], down), right);
   const SkyBlock& block = sky_.blocks[std::size_t(blockAt(sky_, x, y))];
-  const float in_block = std::clamp((y - block.y) / std::max(block.down, 1e-6f), 0.0f, 1.0f);
-  const float density = block.density * glm::mix(block.upper, block.lower, in_block);
-  return {projection_.order > 0 ? sh::valueAt(projection_, d) : glm::vec3(light),
-          density / std::max(cos_elevation, 1e-6f)};
+  const float across = std::clamp((x - block.x) / std::max(block.across, 1e-6f), 0.0f, 1.0f),
+              along = std::clamp((y - block.y) / std::max(block.down, 1e-6f), 0.0f, 1.0f);
+  const float density = glm::mix(glm::mix(block.densities[0], block.densities[1], across),
+                                 glm::mix(block.densities[2], block.densities[3], across), along);
+  const float pdf = density / std::max(cos_elevation, 1e-6f);
+  if (projection_.order > 0) return {sh::valueAt(projection_, d), pdf};
+  const SkyTexel* t = cell(cell_x, cell_y);
+  const float right = x - float(cell_x), down = y - float(cell_y);
+  return {glm::mix(glm::mix(unpacked(t[0]), unpacked(t[1]), down),
+                   glm::mix(unpacked(t[2]), unpacked(t[3]), down), right),
+          pdf};
 }
 
 }  // namespace gloam::reference

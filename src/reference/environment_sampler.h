@@ -44,11 +44,15 @@ class EnvironmentSampler {
                 LaneVectors& light) const;
 
  private:
-  void fillPixels(const Environment& environment);
-  void fillProjection(const Environment& environment, int order);
-  void fillTexels(const std::vector<glm::vec4>& texels);
+  struct Texels {                    // with a border around
+    std::vector<SkyTexel> radiance;  // empty: nothing of it is asked
+    std::vector<float> importance;
+  };
+  Texels fillPixels(const Environment& environment);
+  Texels fillProjection(const Environment& environment, int order);
+  void fillCells(const std::vector<SkyTexel>& texels);
   /// Its texels: upper left, lower left, upper right, lower right.
-  const glm::vec4* cell(int x, int y) const {
+  const SkyTexel* cell(int x, int y) const {
     return &sky_.texels[2 * (std::size_t(y) * std::size_t(sky_.width + 1) + std::size_t(x))];
   }
 

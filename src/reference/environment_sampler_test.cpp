@@ -156,6 +156,16 @@ TEST(EnvironmentSampler, LanesAreTheFunctionForOne) {
   });
 }
 
+TEST(EnvironmentSampler, TexelsKeepTheirRadiance) {
+  for (const glm::vec3& color :
+       {glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(0.3f, 0.7f, 1e-3f), glm::vec3(3e5f, 2e5f, 9e4f),
+        glm::vec3(0.0f, 1e15f, 1.0f), glm::vec3(0.999999f, 0.5f, 0.25f), glm::vec3(1e-20f)}) {
+    const float largest = std::max(color.r, std::max(color.g, color.b));
+    EXPECT_LE(glm::length(unpacked(packed(color)) - color), 7e-6f * largest);
+  }
+  EXPECT_EQ(unpacked(packed({-1.0f, 2.0f, 0.0f})), glm::vec3(0.0f, 2.0f, 0.0f));
+}
+
 TEST(EnvironmentSampler, SamplesAreUnbiased) {
   expectUnbiased(EnvironmentSampler(oddSky(32, 16), 0));
   expectUnbiased(EnvironmentSampler(oddSky(5, 3), 0));

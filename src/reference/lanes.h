@@ -35,7 +35,7 @@ struct LaneVectors {
 
 /// Four floats a lane, written lane by lane and read by columns.
 struct alignas(64) LaneRows {
-  float at[kLanes][4] = {};
+  float at[kLanes][4];
 };
 
 /// Sampler::numbers of one pair for samples given by Sampler::place.

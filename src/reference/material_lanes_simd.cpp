@@ -110,7 +110,7 @@ HWY_INLINE V3 decoded(const float* linear, VU texel) {
 
 void textureKernel(const TextureLanes& textures, std::uint32_t mask, const TexelLanes& texels, bool srgb,
                    LaneVectors& color) {
-  LaneBits corners[4] = {};
+  LaneBits corners[4];
   const float* linear = nullptr;
   for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
     const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));

@@ -25,8 +25,8 @@ struct Paths::Batch {
   int count = 0;  // of lanes in use: the first so many
   int depth = 0;
   Sources sources;
-  PathLanes lanes{};
-  Surfaces::Arrivals arrivals{};
+  PathLanes lanes;
+  Surfaces::Arrivals arrivals;
   LightLanes toward;
   SkyPlaces sky_by_light, sky_by_lobes;
   LaneVectors step_light;  // that steps find in a sky of radiance 1

@@ -1,9 +1,11 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// The sky as blocks. Within one, directions are nearly even in solid angle, so samples vary there as far as the importance g
-// does; a block chosen in proportion to the root mean square of g times its solid angle makes the least of that. The block that would gain most is quartered, until little can be gained or there are as many as a
-// processor keeps close by: reading the sky's picture itself, texel by texel from memory, costs more than tracing the ray.
+// The sky as blocks. Within one cell directions follow the importance g, which is bilinear there. Within a larger block they are
+// nearly even in solid angle, so samples vary as far as g does; a block chosen in proportion to the root mean square of g times
+// its solid angle makes the least of that. The block that would gain most is quartered, until little can be gained or there are
+// as many as a processor keeps close by: reading the sky's picture itself, texel by texel from memory, costs more than tracing
+// the ray.
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -30,7 +32,7 @@ struct Moments {
   void add(const Moments& o) { area += o.area, g += o.g, g2 += o.g2; }
 };
 
-/// A square of the picture, in parts of a cell.
+/// A square of the picture, in cells.
 struct Square {
   int x = 0, y = 0, size = 0;
 };
@@ -38,12 +40,15 @@ struct Square {
 struct Leaf {
   Square square;
   Moments moments;
-  std::size_t parent = 0;  // index into entries: tiles first, then nodes
+  std::size_t parent = 0;                            // index into entries: tiles first, then nodes
+  bool follows() const { return square.size == 1; }  // its directions follow the light
+  double weight() const { return follows() ? moments.g : moments.weight(); }
+  double excess() const { return follows() ? 0.0 : moments.excess(); }
 };
 
 class Builder {
  public:
-  explicit Builder(SkyTable& sky) : sky_(sky) {}
+  Builder(SkyTable& sky, std::span<const float> importance) : sky_(sky), importance_(importance) {}
   void run();
 
  private:
@@ -54,12 +59,22 @@ class Builder {
     return i < sky_.tiles.size() ? sky_.tiles[i] : sky_.nodes[i - sky_.tiles.size()];
   }
   void refine();
-  SkyBlock blockOf(const Square& square, double chance) const;
+  double importanceAt(int cell_x, int cell_y, double x, double y) const;
+  SkyBlock blockOf(const Leaf& leaf, double chance) const;
   void finish();
 
   SkyTable& sky_;
+  std::span<const float> importance_;
   std::vector<Leaf> leaves_;
 };
+
+double Builder::importanceAt(int cell_x, int cell_y, double x, double y) const {
+  const std::size_t row = std::size_t(sky_.width + 1);
+  const float* t = &importance_[std::size_t(cell_y) * row + std::size_t(cell_x)];
+  const double right = x - cell_x, down = y - cell_y;
+  return (double(t[0]) * (1.0 - right) + double(t[1]) * right) * (1.0 - down) +
+         (double(t[row]) * (1.0 - right) + double(t[row + 1]) * right) * down;
+}
 
 /// Part of one cell, in which the importance is bilinear and the cosine taken as constant.
 Moments Builder::momentsIn(double x0, double y0, double x1, double y1) const {
@@ -67,13 +82,7 @@ Moments Builder::momentsIn(double x0, double y0, double x1, double y1) const {
   x1 = std::min(x1, double(sky_.width));
   if (!(x1 > x0) || !(y1 > y0)) return {};
   const int cell_x = int(x0), cell_y = int(y0);
-  const glm::vec4* t =
-      &sky_.texels[2 * (std::size_t(cell_y) * std::size_t(sky_.width + 1) + std::size_t(cell_x))];
-  const auto value = [&](double x, double y) {
-    const double right = x - cell_x, down = y - cell_y;
-    return (double(t[0].w) * (1.0 - right) + double(t[2].w) * right) * (1.0 - down) +
-           (double(t[1].w) * (1.0 - right) + double(t[3].w) * right) * down;
-  };
+  const auto value = [&](double x, double y) { return importanceAt(cell_x, cell_y, x, y); };
   const double a = value(x0, y0), b = value(x1, y0), c = value(x0, y1), d = value(x1, y1);
   const double cosine = std::sin((0.5 * (y0 + y1) - 0.5) / sky_.height * kPi);
   const double area = (x1 - x0) / sky_.width * 2.0 * kPi * (y1 - y0) / sky_.height * kPi * cosine;
@@ -83,14 +92,10 @@ Moments Builder::momentsIn(double x0, double y0, double x1, double y1) const {
 }
 
 Moments Builder::momentsOf(int x, int y, int size) const {
-  const double unit = 1.0 / kSkyParts;
-  if (size <= kSkyParts) return momentsIn(x * unit, y * unit, (x + size) * unit, (y + size) * unit);
   Moments sum;
-  const int last_y = std::min((y + size) / kSkyParts, sky_.height + 1);
-  const int last_x = std::min((x + size) / kSkyParts, sky_.width);
-  for (int row = y / kSkyParts; row < last_y; ++row)
-    for (int column = x / kSkyParts; column < last_x; ++column)
-      sum.add(momentsIn(column, row, column + 1, row + 1));
+  const int last_y = std::min(y + size, sky_.height + 1), last_x = std::min(x + size, sky_.width);
+  for (int row = y; row < last_y; ++row)
+    for (int column = x; column < last_x; ++column) sum.add(momentsIn(column, row, column + 1, row + 1));
   return sum;
 }
 
@@ -117,9 +122,9 @@ void Builder::refine() {
   std::priority_queue<Wish> wishes;
   double light = 0.0, excess = 0.0;
   const auto wish = [&](std::size_t i) {
-    const double gain = leaves_[i].moments.excess();
+    const double gain = leaves_[i].excess();
     excess += gain;
-    if (gain > 0.0 && leaves_[i].square.size > 1) wishes.push({gain, i});
+    if (gain > 0.0) wishes.push({gain, i});
   };
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     light += leaves_[i].moments.g;
@@ -161,27 +166,30 @@ void append(const Distribution& choice, std::vector<std::uint32_t>& starts,
   first.push_back(std::uint16_t(choice.last()));
 }
 
-SkyBlock Builder::blockOf(const Square& square, double chance) const {
-  const float unit = 1.0f / float(kSkyParts);
-  const float x0 = float(square.x) * unit, y0 = std::max(float(square.y) * unit, 0.5f);
-  const float x1 = std::min(float(square.x + square.size) * unit, float(sky_.width));
-  const float y1 = std::min(float(square.y + square.size) * unit, float(sky_.height) + 0.5f);
-  SkyBlock block{x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
+SkyBlock Builder::blockOf(const Leaf& leaf, double chance) const {
+  const Square& square = leaf.square;
+  const double x0 = square.x, y0 = std::max(double(square.y), 0.5);
+  const double x1 = std::min(square.x + square.size, sky_.width);
+  const double y1 = std::min(double(square.y + square.size), sky_.height + 0.5);
+  if (!(x1 > x0) || !(y1 > y0)) return {float(x0), float(y0)};
+  SkyBlock block{float(x0), float(y0), float(x1 - x0), float(y1 - y0)};
   const auto cosine = [&](double y) { return std::sin((y - 0.5) / sky_.height * kPi); };
-  const double least =
-      0.1 * cosine(0.5 * (double(y0) + double(y1)));  // at the poles, too, something is chosen
-  block.upper = float(std::max(least, cosine(double(y0))));
-  block.lower = float(std::max(least, cosine(double(y1))));
-  const double extent = double(block.across) / sky_.width * 2.0 * kPi * double(block.down) / sky_.height *
-                        kPi * 0.5 * (double(block.upper) + double(block.lower));
-  if (extent > 0.0) block.density = float(chance / extent);
+  const double least = 0.1 * cosine(0.5 * (y0 + y1));  // at the poles, too, something is chosen
+  double corners[4], sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double x = i & 1 ? x1 : x0, y = i & 2 ? y1 : y0;
+    corners[i] = std::max(least, cosine(y)) * (leaf.follows() ? importanceAt(square.x, square.y, x, y) : 1.0);
+    sum += corners[i];
+  }
+  const double extent = (x1 - x0) / sky_.width * 2.0 * kPi * (y1 - y0) / sky_.height * kPi * 0.25 * sum;
+  for (int i = 0; extent > 0.0 && i < 4; ++i) block.densities[i] = float(corners[i] * chance / extent);
   return block;
 }
 
 /// A row of tiles is chosen by one random number and a block in it by the other: evenly spread pairs choose evenly.
 void Builder::finish() {
-  constexpr int kCurveBits = 20;  // 32768 texels and the last row, in parts
-  const int size = kSkyParts << sky_.tile_bits;
+  constexpr int kCurveBits = 16;  // 32768 texels and the last row
+  const int size = 1 << sky_.tile_bits;
   std::sort(leaves_.begin(), leaves_.end(), [&](const Leaf& a, const Leaf& b) {
     const auto place = [&](const Leaf& leaf) {
       const auto [x, y, unused] = leaf.square;
@@ -190,12 +198,12 @@ void Builder::finish() {
     return place(a) < place(b);
   });
   double total = 0.0;
-  for (const Leaf& leaf : leaves_) total += leaf.moments.weight();
+  for (const Leaf& leaf : leaves_) total += leaf.weight();
   const std::size_t rows = sky_.tiles.size() / std::size_t(sky_.tiles_across);
   std::vector<std::vector<float>> weights(rows);
   std::vector<float> row_weights(rows);
   for (const Leaf& leaf : leaves_) {
-    const double weight = leaf.moments.weight();
+    const double weight = leaf.weight();
     const auto row = std::size_t(leaf.square.y / size);
     weights[row].push_back(weight > 0.0 ? float(std::max(weight, kLeastShare * total)) : 0.0f);
     row_weights[row] += weights[row].back();
@@ -213,7 +221,7 @@ void Builder::finish() {
       const double chance =
           double(row_choice.probability(std::uint32_t(row))) * double(choice.probability(std::uint32_t(i)));
       entry(leaves_[leaf].parent) = std::int32_t(leaf);
-      sky_.blocks.push_back(blockOf(leaves_[leaf].square, chance));
+      sky_.blocks.push_back(blockOf(leaves_[leaf], chance));
     }
   }
   sky_.row_first.push_back(0);
@@ -227,7 +235,7 @@ void Builder::run() {
     ++sky_.tile_bits;
   sky_.tiles_across = tilesAlong(sky_.width);
   sky_.tiles.assign(std::size_t(sky_.tiles_across) * std::size_t(tilesAlong(sky_.height + 1)), 0);
-  const int size = kSkyParts << sky_.tile_bits;
+  const int size = 1 << sky_.tile_bits;
   for (std::size_t i = 0; i < sky_.tiles.size(); ++i) {
     const int x = int(i) % sky_.tiles_across * size, y = int(i) / sky_.tiles_across * size;
     leaves_.push_back({{x, y, size}, momentsOf(x, y, size), i});
@@ -238,8 +246,8 @@ void Builder::run() {
 
 }  // namespace
 
-void fillBlocks(SkyTable& sky) {
-  Builder(sky).run();
+void fillBlocks(SkyTable& sky, std::span<const float> importance) {
+  Builder(sky, importance).run();
 }
 
 }  // namespace gloam::reference

@@ -4,29 +4,35 @@
 // A picture of the sky, made ready for sixteen directions at once (sky_lanes_simd.cpp); EnvironmentSampler owns it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reference/lanes.h"
 
 namespace gloam::reference {
 
-/// A part of the picture, in cells. Directions are spread in it evenly in longitude, and in elevation as a straight line from
-/// `upper` to `lower` goes, which is nearly the cosine: so nearly evenly in solid angle.
+/// A part of the picture, in cells. Directions have a bilinear density in it: one cell's follows its light, so that the few
+/// texels of a sun get their share of evenly spread samples as it is; larger ones' the cosine of the elevation alone, so
+/// nearly evenly in solid angle.
 struct SkyBlock {
   float x = 0.0f, y = 0.0f, across = 0.0f, down = 0.0f;
-  float upper = 0.0f, lower = 0.0f;
-  float density = 0.0f;  ///< times that line, / cos elevation: 1/sr
-  float unused = 0.0f;
+  /// Upper left, upper right, lower left, lower right; / cos elevation: 1/sr.
+  float densities[4] = {};
 };
 
-/// The least blocks are a sixteenth of a cell each way: the sun of a small picture is one texel.
-inline constexpr int kSkyParts = 16, kSkyPartBits = 4;
+/// Radiance in eight bytes: 18 bits a colour and the power of two that they share, to 4e-6 of the largest of them.
+struct SkyTexel {
+  std::uint32_t low = 0,
+                high = 0;  ///< red, 14 bits of green; 4 bits of green, blue, exponent as floats have it
+};
+SkyTexel packed(const glm::vec3& radiance);
+glm::vec3 unpacked(const SkyTexel& texel);
 
 struct SkyTable {
   int width = 0, height = 0;  ///< texels
   /// Cell (x, y), y up to `height`, lies between four texels. [cell][upper left, lower left], row by row, of width + 1 cells
   /// each: the next entry has the two on the right. So a cell comes from memory in one piece, or two.
-  std::vector<glm::vec4> texels;
+  std::vector<SkyTexel> texels;
   float cos_rotation = 1.0f, sin_rotation = 0.0f;
   float turned = 0.5f;  ///< longitude 0 in the picture, as a share of its width
   /// Row of tiles by row of tiles, in each from left to right. Few enough for a processor's second cache.
@@ -43,9 +49,10 @@ struct SkyTable {
   std::vector<std::int32_t> tiles, nodes;
 };
 
-/// Cuts the sky into blocks, finer where it is less even, out of the importance (w) of its texels, and fills all that
-/// chooses and finds them; nothing where there is no light (sky_blocks.cpp).
-void fillBlocks(SkyTable& sky);
+/// Cuts the sky into blocks, finer where it is less even, out of the importance of its texels (width + 1 by height + 2, with
+/// a border as the cells need it), and fills all that chooses and finds them; nothing where there is no light
+/// (sky_blocks.cpp).
+void fillBlocks(SkyTable& sky, std::span<const float> importance);
 
 /// Where directions lie: a cell and a place in it.
 struct SkyPlaces {
@@ -61,8 +68,8 @@ void placesOf(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& pla
 void densitiesOf(const SkyPlaces& places, LaneFloats& pdf);
 /// Sends for the light of a lane: radianceOf is better asked some time later.
 inline void sendFor(const SkyTable& sky, const SkyPlaces& places, int lane) {
-  const glm::vec4* texel = &sky.texels[2 * (std::size_t(places.cell_y.at[lane]) * std::size_t(sky.width + 1) +
-                                            std::size_t(places.cell_x.at[lane]))];
+  const SkyTexel* texel = &sky.texels[2 * (std::size_t(places.cell_y.at[lane]) * std::size_t(sky.width + 1) +
+                                           std::size_t(places.cell_x.at[lane]))];
   __builtin_prefetch(texel);
   __builtin_prefetch(texel + 3);
 }

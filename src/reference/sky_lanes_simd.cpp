@@ -87,13 +87,14 @@ HWY_INLINE Chosen chosenBy(const SkyTable& sky, const Numbers& n) {
 // Where between 0 and 1 a density that goes linearly from a to b has the share u below it.
 HWY_INLINE V sampleLinear(V a, V b, V u) {
   const V sum = hn::Add(a, b), root = hn::Sqrt(mix(hn::Mul(a, a), hn::Mul(b, b), u));
-  return hn::Min(hn::Div(hn::Mul(u, sum), hn::Add(a, root)), all(1.0f));
+  return hn::Min(hn::Div(hn::Mul(u, sum), hn::Max(hn::Add(a, root), all(1e-30f))), all(1.0f));
 }
 
 struct Blocks {
-  V x, y, across, down, upper, lower, density;
-  // Density at a height in the block, but for the cosine.
-  V densityAt(V place) const { return hn::Mul(density, mix(upper, lower, place)); }
+  V x, y, across, down, densities[4];
+  V densityAt(V right, V lower) const {
+    return mix(mix(densities[0], densities[1], right), mix(densities[2], densities[3], right), lower);
+  }
 };
 // Row by row and turned in registers: quicker than eight gathers.
 HWY_INLINE Blocks blocksAt(const SkyTable& sky, VI index) {
@@ -109,7 +110,7 @@ HWY_INLINE Blocks blocksAt(const SkyTable& sky, VI index) {
     }
   }
   const Columns first = columns(low, 0), second = columns(high, 0);
-  return {first.a, first.b, first.c, first.d, second.a, second.b, second.c};
+  return {first.a, first.b, first.c, first.d, {second.a, second.b, second.c, second.d}};
 }
 
 void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const LaneBits& from,
@@ -119,8 +120,11 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const Chosen chosen = chosenBy(sky, numbers(scramble, load(from, i)));
     const Blocks block = blocksAt(sky, chosen.block);
-    const V x = hn::MulAdd(chosen.x, block.across, block.x);
-    const V down = sampleLinear(block.upper, block.lower, chosen.y);
+    const auto& [upper_left, upper_right, lower_left, lower_right] = block.densities;
+    const V down = sampleLinear(hn::Add(upper_left, upper_right), hn::Add(lower_left, lower_right), chosen.y);
+    const V right =
+        sampleLinear(mix(upper_left, lower_left, down), mix(upper_right, lower_right, down), chosen.x);
+    const V x = hn::MulAdd(right, block.across, block.x);
     const V y = hn::MulAdd(down, block.down, block.y);
     const VI cell_x = clampInt(toInt(x), sky.width - 1), cell_y = clampInt(toInt(y), sky.height);
     const Circle elevation = circle(hn::NegMulAdd(hn::Sub(y, half), y_scale, all(0.25f)));
@@ -132,7 +136,7 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    store(block.densityAt(down), places.density, i);
+    store(block.densityAt(right, down), places.density, i);
     store(up, places.cos_elevation, i);
     store(V3{hn::MulAdd(cosine, local_x, hn::Mul(sine, local_z)), elevation.sine,
              hn::NegMulAdd(sine, local_x, hn::Mul(cosine, local_z))},
@@ -141,20 +145,18 @@ void chooseKernel(const SkyTable& sky, const Sampler::Scramble& scramble, const 
 }
 
 // Down the quadtree under a tile.
-HWY_INLINE VI blockAt(const SkyTable& sky, V x, V y) {
+HWY_INLINE VI blockAt(const SkyTable& sky, VI cell_x, VI cell_y) {
   const DI di;
   const VI one = hn::Set(di, 1);
-  const VI unit_x = toInt(hn::Mul(x, all(float(kSkyParts)))),
-           unit_y = toInt(hn::Mul(y, all(float(kSkyParts))));
-  int bit = sky.tile_bits + kSkyPartBits;
-  const VI row = hn::Mul(hn::ShiftRightSame(unit_y, bit), hn::Set(di, sky.tiles_across));
-  const VI tile = hn::Add(row, hn::ShiftRightSame(unit_x, bit));
+  int bit = sky.tile_bits;
+  const VI row = hn::Mul(hn::ShiftRightSame(cell_y, bit), hn::Set(di, sky.tiles_across));
+  const VI tile = hn::Add(row, hn::ShiftRightSame(cell_x, bit));
   VI entry = hn::GatherIndex(di, sky.tiles.data(), tile);
   for (auto inner = hn::Lt(entry, hn::Zero(di)); !hn::AllFalse(di, inner);
        inner = hn::Lt(entry, hn::Zero(di))) {
     --bit;
-    const VI right = hn::And(hn::ShiftRightSame(unit_x, bit), one);
-    const VI down = hn::And(hn::ShiftRightSame(unit_y, bit), one);
+    const VI right = hn::And(hn::ShiftRightSame(cell_x, bit), one);
+    const VI down = hn::And(hn::ShiftRightSame(cell_y, bit), one);
     const VI child = hn::Add(hn::Not(entry), hn::Add(hn::Add(down, down), right));
     entry =
         hn::IfThenElse(inner, hn::GatherIndex(di, sky.nodes.data(), hn::IfThenElseZero(inner, child)), entry);
@@ -180,9 +182,10 @@ void findKernel(const SkyTable& sky, const LaneVectors& directions, SkyPlaces& p
     store(cell_y, places.cell_y, i);
     store(hn::Sub(x, toFloat(cell_x)), places.x, i);
     store(hn::Sub(y, toFloat(cell_y)), places.y, i);
-    const Blocks block = blocksAt(sky, blockAt(sky, x, y));
+    const Blocks block = blocksAt(sky, blockAt(sky, cell_x, cell_y));
+    const V right = hn::Div(hn::Sub(x, block.x), hn::Max(block.across, all(1e-6f)));
     const V down = hn::Div(hn::Sub(y, block.y), hn::Max(block.down, all(1e-6f)));
-    store(block.densityAt(clampUnit(down)), places.density, i);
+    store(block.densityAt(clampUnit(right), clampUnit(down)), places.density, i);
     store(cos_elevation, places.cos_elevation, i);
   }
 }
@@ -194,25 +197,34 @@ void densityKernel(const SkyPlaces& places, LaneFloats& pdf) {
     store(hn::Div(load(places.density, i), hn::Max(load(places.cos_elevation, i), all(1e-6f))), pdf, i);
 }
 
+// SkyTexel's unpacked().
+HWY_INLINE V3 unpackedTexels(VU low, VU high) {
+  const VU of_color = allBits(0x3ffffu);
+  const VU green = hn::Or(hn::ShiftRight<18>(low), hn::ShiftLeft<14>(hn::And(high, allBits(15u))));
+  const V unit = hn::BitCast(D(), hn::ShiftLeft<23>(hn::ShiftRight<22>(high)));
+  return mul(V3{toFloat(asInt(hn::And(low, of_color))), toFloat(asInt(green)),
+                toFloat(asInt(hn::And(hn::ShiftRight<4>(high), of_color)))},
+             unit);
+}
+
 void radianceKernel(const SkyTable& sky, const SkyPlaces& places, std::uint32_t mask, LaneVectors& radiance) {
-  const hn::CappedTag<float, 4> four;
-  LaneRows texels;
+  alignas(64) std::uint32_t left[kLanes][4] = {}, right[kLanes][4] = {};
   for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
     const auto i = std::size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
     const auto cell =
         std::size_t(places.cell_y.at[i]) * std::size_t(sky.width + 1) + std::size_t(places.cell_x.at[i]);
-    const float* corner = &sky.texels[2 * cell].x;
-    const auto x = hn::Set(four, places.x.at[i]), y = hn::Set(four, places.y.at[i]);
-    for (std::size_t c = 0; c < 4; c += hn::Lanes(four)) {  // all four channels, where vectors are so wide
-      const auto upper_left = hn::LoadU(four, corner + c), upper_right = hn::LoadU(four, corner + 8 + c);
-      const auto left = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 4 + c), upper_left), y, upper_left);
-      const auto right = hn::MulAdd(hn::Sub(hn::LoadU(four, corner + 12 + c), upper_right), y, upper_right);
-      hn::StoreU(hn::MulAdd(hn::Sub(right, left), x, left), four, texels.at[i] + c);
-    }
+    const SkyTexel* texels = &sky.texels[2 * cell];
+    std::memcpy(left[i], texels, 16);
+    std::memcpy(right[i], texels + 2, 16);
   }
   for (std::size_t i = 0; i < kLanes; i += hn::Lanes(D())) {
-    const Columns c = columns(texels.at, i);
-    store(V3{c.a, c.b, c.c}, radiance, i);
+    VU a, b, c, d;
+    const V x = load(places.x, i), y = load(places.y, i);
+    hn::LoadInterleaved4(DU(), left[i], a, b, c, d);
+    const V3 upper = unpackedTexels(a, b), before = mulAdd(sub(unpackedTexels(c, d), upper), y, upper);
+    hn::LoadInterleaved4(DU(), right[i], a, b, c, d);
+    const V3 other = unpackedTexels(a, b), after = mulAdd(sub(unpackedTexels(c, d), other), y, other);
+    store(mulAdd(sub(after, before), x, before), radiance, i);
   }
 }
 

@@ -257,6 +257,9 @@ class Refused(DiffTest):
         for option, value in [("--pixels-per-degree", 0), ("--pixels-per-degree", "nan"), ("--peak", -1), ("--factor", 0),
                               ("--top", 0), ("--exposure", "bright"), ("--exposure", 99), ("--tone-map", "film")]:
             self.refuse_pair("a.exr", "b.exr", option, option, value)
+        for option in "--factor", "--top":
+            self.refuse("diff", "a.exr", "b.exr", option, "2", says=[option, "was expected with it"])
+        self.refuse("diff", "a.exr", "b.exr", "--top", "2", "--flip", "f.png", says=["--top", "--false-color"])
         for option in "--mask", "--flip", "--false-color", "-o":
             self.refuse("diff", "a.exr", "b.exr", option, "", says="empty")
         self.refuse("diff", "", "b.exr", says="empty")

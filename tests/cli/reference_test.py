@@ -17,6 +17,10 @@ class Pictures(CliTest):
     def attributes(self, name):
         return self.picture(name)["attributes"]
 
+    def test_parts_need_a_file_that_holds_layers(self):
+        for output in "a.png", "a.hdr", "frames", "a_####.png", "a.mp4":
+            self.refuse("reference", BOX, *SMALL, "--parts", "-o", output, says=["--parts", output, "x.exr"])
+
     def test_exr_holds_all_layers_and_says_what_is_in_it(self):
         result = self.succeed_json("reference", BOX, *SMALL, *QUICK, "--bounces", "3", "--seed", "5", "-o", "a.exr")
         self.assertEqual((result["size"], result["samples"], result["bounces"], result["outputs"]), ("48x32", 8, 3, ["a.exr"]))
