@@ -110,18 +110,16 @@ Mesh machines(float cell) {
 void addHall(SceneBuilder& builder, const Detail& detail) {
   const float cell = detail.cell(0.11f), coarse = detail.cell(0.16f);
   const int hall = builder.node("hall");
-  const auto add = [&](const std::string& name, Mesh mesh, int material) {
-    builder.at(hall).meshes.push_back(builder.mesh(name, std::move(mesh), material));
+  const auto add = [&](Mesh mesh, int material) {
+    builder.at(hall).meshes.push_back(builder.mesh("hall", std::move(mesh), material));
   };
-  add("floor",
-      shapes::moved(shapes::withUvScale(shapes::slab(2.6f, 1.45f, 0.2f, 0.02f, cell), {3.25f, 1.8f}),
+  add(shapes::moved(shapes::withUvScale(shapes::slab(2.6f, 1.45f, 0.2f, 0.02f, cell), {3.25f, 1.8f}),
                     {0, 0, 0.25f}),
       addTiles(builder, "floor", {0.52f, 0.5f, 0.46f}, {0.42f, 0.41f, 0.4f}));
-  add("wall",
-      shapes::moved(shapes::roundedBox({2.6f, 1.25f, 0.05f}, 0.02f, 1.4f * cell, 2), {0, 1.252f, -1.16f}),
+  add(shapes::moved(shapes::roundedBox({2.6f, 1.25f, 0.05f}, 0.02f, 1.4f * cell, 2), {0, 1.252f, -1.16f}),
       addPlaster(builder, "wall", {0.66f, 0.64f, 0.58f}, {0.16f, 0.4f, 0.36f}, 0.6f, 1.1f));
-  add("rollers", rollers(detail), builder.diffuse("rollers", {0.46f, 0.47f, 0.49f}));
-  add("frame", frame(coarse), builder.diffuse("frame", {0.12f, 0.2f, 0.26f}));
+  add(rollers(detail), builder.diffuse("rollers", {0.46f, 0.47f, 0.49f}));
+  add(frame(coarse), builder.diffuse("frame", {0.12f, 0.2f, 0.26f}));
   Boxes housings(coarse);
   addHousing(housings, -1.32f, -2.34f, 0.82f, 1.0f);
   addHousing(housings, 1.36f, 2.42f, 1.2f, 1.3f);
@@ -131,12 +129,11 @@ void addHall(SceneBuilder& builder, const Detail& detail) {
                                       smoothStep(0.0f, 0.05f, f) * smoothStep(0.55f, 0.5f, f));
     return glm::mix(hazard, {0.16f, 0.38f, 0.3f}, smoothStep(0.09f, 0.1f, std::min(v, 1.0f - v)));
   });
-  add("housings", housings.take(), stripes);
-  add("machines", machines(coarse),
-      addBelts(builder, "machines", {0.1f, 0.3f, 0.34f}, {0.14f, 0.36f, 0.4f}, 1));
+  add(housings.take(), stripes);
+  add(machines(coarse), addBelts(builder, "machines", {0.1f, 0.3f, 0.34f}, {0.14f, 0.36f, 0.4f}, 1));
   Mesh tubes = shapes::moved(tube(0.132f, 0.022f, 0.0f, kMagazineTop_m + 0.03f, detail), kMagazine);
   shapes::append(tubes, shapes::moved(pipe(detail), {kStations_m[1], 0, 0}));
-  add("tubes", std::move(tubes), addBelts(builder, "tubes", {0.6f, 0.58f, 0.52f}, {0.6f, 0.1f, 0.06f}, 1));
+  add(std::move(tubes), addBelts(builder, "tubes", {0.6f, 0.58f, 0.52f}, {0.6f, 0.1f, 0.06f}, 1));
 }
 
 }  // namespace gloam::assembly

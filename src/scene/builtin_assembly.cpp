@@ -140,9 +140,8 @@ void addArm(SceneBuilder& builder, const Detail& detail) {
     const int node = builder.node(name, parent, at);
     const Mesh tube = shapes::moved(shapes::cylinder(radius, length - 0.07f, 0.02f, detail(22), detail(8)),
                                     {0, -length + 0.035f, 0});
-    builder.at(node).meshes = {
-        builder.mesh(name, tube, paint),
-        builder.mesh(name + " joint", shapes::icosphere(radius * 1.3f, detail(7)), dark)};
+    builder.at(node).meshes = {builder.mesh(name, tube, paint),
+                               builder.mesh(name, shapes::icosphere(radius * 1.3f, detail(7)), dark)};
     return node;
   };
   const int turret = builder.place("turret", shapes::cylinder(0.11f, 0.13f, 0.025f, detail(28), detail(4)),

@@ -125,8 +125,7 @@ class Robot {
     const int body = builder_.node("robot");
     for (auto& [material, mesh] : skinned_) {
       mesh.influences = 4;
-      builder_.at(body).meshes.push_back(
-          builder_.mesh(builder_.material(material).name, std::move(mesh), material));
+      builder_.at(body).meshes.push_back(builder_.mesh("robot", std::move(mesh), material));
     }
     builder_.at(body).skin = builder_.skin(joints_, std::move(joint_from_mesh_));
   }

@@ -125,7 +125,9 @@ Scene makeBend(const Detail& detail, NamedValues& values) {
     const float s = std::clamp(p.x / kLength + 0.5f, 0.0f, 1.0f) * float(kJoints - 1);
     const int below = std::min(int(s), kJoints - 2);
     const float above = smoothStep(0.0f, 1.0f, s - float(below));
-    mesh.joints.insert(mesh.joints.end(), {std::uint16_t(below), std::uint16_t(below + 1), 0, 0});
+    // Joints without weight are 0.
+    mesh.joints.insert(mesh.joints.end(), {std::uint16_t(above < 1.0f ? below : 0),
+                                           std::uint16_t(above > 0.0f ? below + 1 : 0), 0, 0});
     mesh.weights.insert(mesh.weights.end(), {1.0f - above, above, 0.0f, 0.0f});
   }
   const float step = kLength / float(kJoints - 1), height = 1.0f;
