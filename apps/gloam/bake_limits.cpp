@@ -21,9 +21,10 @@ void addLimitOptions(CLI::App& app, BakeOptions& options, LimitChoice& choice) {
                 "each vertex takes rays, up to --directions, until its standard error is this part of what "
                 "an open one has; the first bounce too. By default all take all")
           ->group("Transfer");
-  addName(app, "--memory", choice.memory, "SIZE",
-          "most memory that the bake may take, as 600M or 2G; less of it costs time in later bounces")
-      ->group("Transfer");
+  choice.memory_option =
+      addText(app, "--memory", choice.memory, "SIZE",
+              "most memory that the bake may take, as 600M or 2G; less of it costs time in later bounces")
+          ->group("Transfer");
 }
 
 std::size_t parseBytes(const std::string& place, const std::string& text) {
@@ -38,7 +39,7 @@ std::size_t parseBytes(const std::string& place, const std::string& text) {
   if (unit == "B") unit.clear();
   const std::size_t power = std::string(" KMGT").find(unit.empty() ? ' ' : unit[0]);
   if (digits == 0 || unit.size() > 1 || power == std::string::npos)
-    throw Error(place, fmt::format("{}: expected a size as 600M or 2G", text));
+    throw Error(place, fmt::format("'{}': expected a size as 600M or 2G", text));
   const double bytes =
       parseNumber(place, text.substr(0, digits), {0.0, 1e15}) * std::pow(1024.0, double(power));
   if (!(bytes >= 1.0 && bytes <= 1e15))
@@ -48,7 +49,7 @@ std::size_t parseBytes(const std::string& place, const std::string& text) {
 
 void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& console) {
   options.caustics = choice.caustics == "on";
-  if (!choice.memory.empty()) options.memory_bytes = parseBytes("--memory", choice.memory);
+  if (choice.memory_option->count() > 0) options.memory_bytes = parseBytes("--memory", choice.memory);
   const auto without = [&](const CLI::Option* option, const char* kind) {
     if (option->count() > 0)
       console.remark(fmt::format("{} has no effect on --kind {}", option->get_name(), kind));

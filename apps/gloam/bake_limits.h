@@ -18,6 +18,7 @@ struct LimitChoice {
   std::string caustics = "on", memory;
   const CLI::Option* caustics_option = nullptr;
   const CLI::Option* error_option = nullptr;
+  const CLI::Option* memory_option = nullptr;
 };
 
 /// --caustics, --error, --memory.

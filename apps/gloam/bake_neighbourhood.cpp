@@ -56,7 +56,7 @@ void addNeighbourhoodOptions(CLI::App& app, NeighbourhoodChoice& choice) {
       "through which they throw shadow and light on whatever passes; implies --apart")
       ->group(group);
   const auto ofGrid = [&](CLI::Option* option) { choice.of_grid.push_back(option->group(group)); };
-  ofGrid(addName(app, "--grid", choice.grid, "N|XxYxZ", "points along the grid's longest side, or along each")
+  ofGrid(addText(app, "--grid", choice.grid, "N|XxYxZ", "points along the grid's longest side, or along each")
              ->default_str("16"));
   ofGrid(addNumber(app, "--neighbourhood-reach", choice.options.reach, {0.0, 16.0}, "LENGTHS",
                    "how far the grid goes beyond its object, in lengths of the object's longest side")
@@ -72,7 +72,7 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
     }
     return {};
   }
-  if (!choice.grid.empty()) choice.options.size = parseGrid(choice.grid);
+  if (choice.of_grid.front()->count() > 0) choice.options.size = parseGrid(choice.grid);
   bake.apart = true;
   choice.options.order = bake.order;
   choice.options.directions = bake.directions;

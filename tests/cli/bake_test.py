@@ -300,7 +300,7 @@ f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
                 ("--uv-set", 8), ("--uv-set", -1), ("--tessellate", 0), ("--tessellate", 2), ("--tessellate-max", 2), \
                 ("--glossy-order", 7), ("--glossy-light-order", 2), ("--bake-gloss", 0), ("--error", 0), ("--error", 2), ("--caustics", "yes"):
             self.refuse("bake", SCENE, option, value, "-o", "a.glb", says=[option, value if value != 1e6 else "1000000"])
-        for option in "--memory", "--pca", "--neighbourhood", "--grid":
+        for option in "--memory", "--pca", "--neighbourhood":
             self.refuse("bake", SCENE, option, "", "-o", "a.glb", says=option)
 
     def test_options_that_contradict_each_other(self):
