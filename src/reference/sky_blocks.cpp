@@ -21,6 +21,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kMostBlocks = 16384;
 constexpr double kEnough = 0.002;     // share of the light by which root mean squares may exceed means
 constexpr double kLeastShare = 1e-7;  // of the chances: more than the numbers' steps
+constexpr double kSun = 100.0;        // times the mean importance of the whole sky
 constexpr std::size_t kMostTiles = 4096;
 constexpr int kRowBits = 8, kBlockBits = 9;  // of the tables of where to begin
 
@@ -41,6 +42,7 @@ struct Leaf {
   Square square;
   Moments moments;
   std::size_t parent = 0;                            // index into entries: tiles first, then nodes
+  int row = 0;                                       // of tiles, or the one more of suns
   bool follows() const { return square.size == 1; }  // its directions follow the light
   double weight() const { return follows() ? moments.g : moments.weight(); }
   double excess() const { return follows() ? 0.0 : moments.excess(); }
@@ -59,6 +61,7 @@ class Builder {
     return i < sky_.tiles.size() ? sky_.tiles[i] : sky_.nodes[i - sky_.tiles.size()];
   }
   void refine();
+  std::size_t setRows();
   double importanceAt(int cell_x, int cell_y, double x, double y) const;
   SkyBlock blockOf(const Leaf& leaf, double chance) const;
   void finish();
@@ -186,25 +189,41 @@ SkyBlock Builder::blockOf(const Leaf& leaf, double chance) const {
   return block;
 }
 
+/// Cells that are far brighter than the whole sky, a sun, are one more row together: among others they would get a part of
+/// evenly spread pairs whose number wavers more.
+std::size_t Builder::setRows() {
+  const int size = 1 << sky_.tile_bits;
+  const std::size_t rows = sky_.tiles.size() / std::size_t(sky_.tiles_across);
+  Moments sky;
+  for (const Leaf& leaf : leaves_) sky.add(leaf.moments);
+  bool suns = false;
+  for (Leaf& leaf : leaves_) {
+    const bool sun = leaf.follows() && leaf.moments.g * sky.area > kSun * sky.g * leaf.moments.area;
+    leaf.row = sun ? int(rows) : leaf.square.y / size;
+    suns = suns || sun;
+  }
+  return suns ? rows + 1 : rows;
+}
+
 /// A row of tiles is chosen by one random number and a block in it by the other: evenly spread pairs choose evenly.
 void Builder::finish() {
   constexpr int kCurveBits = 16;  // 32768 texels and the last row
   const int size = 1 << sky_.tile_bits;
+  const std::size_t rows = setRows();
   std::sort(leaves_.begin(), leaves_.end(), [&](const Leaf& a, const Leaf& b) {
     const auto place = [&](const Leaf& leaf) {
-      const auto [x, y, unused] = leaf.square;
-      return std::tuple(y / size, x / size, alongCurve(std::uint32_t(x), std::uint32_t(y), kCurveBits));
+      const int x = leaf.square.x, y = leaf.square.y;
+      return std::tuple(leaf.row, x / size, alongCurve(std::uint32_t(x), std::uint32_t(y), kCurveBits));
     };
     return place(a) < place(b);
   });
   double total = 0.0;
   for (const Leaf& leaf : leaves_) total += leaf.weight();
-  const std::size_t rows = sky_.tiles.size() / std::size_t(sky_.tiles_across);
   std::vector<std::vector<float>> weights(rows);
   std::vector<float> row_weights(rows);
   for (const Leaf& leaf : leaves_) {
     const double weight = leaf.weight();
-    const auto row = std::size_t(leaf.square.y / size);
+    const auto row = std::size_t(leaf.row);
     weights[row].push_back(weight > 0.0 ? float(std::max(weight, kLeastShare * total)) : 0.0f);
     row_weights[row] += weights[row].back();
   }
