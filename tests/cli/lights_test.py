@@ -60,6 +60,8 @@ class Lights(CliTest):
             self.refuse("render", BALL, *SMALL, "--light", light, "-o", "a.png", says=words)
         self.path("bad.json").write_text("{}")
         self.refuse("reference", BALL, *SMALL, "--light", "bad.json", "-o", "a.exr", says=["bad.json", "list"])
+        self.path("bad.json").write_text('["constant", ["constant"]]')
+        self.refuse("reference", BALL, *SMALL, "--light", "bad.json", "-o", "a.exr", says=["bad.json", "entry 1 is an array"])
 
 
 if __name__ == "__main__":

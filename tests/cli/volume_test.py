@@ -1,9 +1,11 @@
 # gloam - real-time soft global illumination
 # SPDX-License-Identifier: MIT
 """Smoke and cloud: baked, drawn, told of, and left out where nobody knows them."""
+import subprocess
+import time
 import unittest
 
-from harness import SMALL, CliTest
+from harness import GLOAM, SMALL, CliTest
 
 QUICK = ["--directions", "256", "--bounce-directions", "64", "--order", "3", "--bounces", "1"]
 SCENE = "builtin:cloud?detail=0.25"
@@ -24,6 +26,20 @@ class Volume(CliTest):
         self.succeed("render", "b.glb", *SMALL, "-o", "b.exr")
         self.assertGreater(once[1], 1.2 * self.means("b.exr", "indirect")["G"])
         self.assertIn("volume left out", self.succeed("render", "a.glb", *SMALL, "--technique", "irradiance", "-o", "c.png").err)
+
+    def test_a_finished_volume_is_kept(self):
+        command = ["bake", SCENE, "--order", "5", "--directions", "65536", "--kind", "ds", "--scatterings", "2"]
+        process = subprocess.Popen([GLOAM, *command, "-o", "a.glb"], cwd=self.folder, env=self.environment, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 60
+        while not self.path("a.glb.checkpoint.volumes").exists() and process.poll() is None and time.monotonic() < end:
+            time.sleep(0.005)
+        process.kill()
+        process.wait()
+        self.assertFalse(self.path("a.glb").exists())
+        self.assertTrue(self.succeed_json(*command, "-o", "a.glb")["volumes"]["resumed"])
+        self.assertFalse(self.succeed_json(*command, "-o", "whole.glb")["volumes"]["resumed"])
+        self.assertEqual(self.path("a.glb").read_bytes(), self.path("whole.glb").read_bytes())
+        self.assertEqual(list(self.folder.glob("*checkpoint*")), [])
 
     def test_a_raw_grid_is_a_scene(self):
         with open(self.path("smoke.raw"), "wb") as file:
