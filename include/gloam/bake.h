@@ -124,9 +124,9 @@ struct TessellateOptions {
   /// Rays by which errors are measured, of all rounds: bounds the time, with the same mesh on any machine. What was not split
   /// by then stays.
   std::size_t max_rays = 2000000000;
-  int order = 5;                       ///< bands in which the difference is measured, 3 to 6
-  int directions = 0;                  ///< rays by which it is measured at a place, 256 to 65536; 0: by `error`
-  int threads = 0;                     ///< as BakeOptions
+  int order = 5;       ///< bands in which the difference is measured, 3 to 6
+  int directions = 0;  ///< rays by which it is measured at a place, 256 to 65536; 0: by `error`
+  int threads = 0;     ///< as BakeOptions
   float time_s = 0.0f;
 };
 struct TessellateReport {
