@@ -27,6 +27,7 @@ constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_
 struct Slot {
   explicit Slot(Device& device) : sets(device) {}
   VkCommandPool pool = VK_NULL_HANDLE;
+  std::vector<VkCommandBuffer> commands;  ///< of the pool; resetting it keeps them, so that each frame frees its own
   VkQueryPool queries = VK_NULL_HANDLE;
   std::uint32_t query_capacity = 0;
   DescriptorSets sets;
@@ -126,6 +127,12 @@ void FrameGraph::begin() {
   check(state.device.vk().vkResetCommandPool(state.device.handle(), slot.pool,
                                              VK_COMMAND_POOL_RESET_RELEASE_RESOURCES_BIT),
         "gpu", "vkResetCommandPool");
+  if (!slot.commands.empty()) {
+    state.device.vk().vkFreeCommandBuffers(state.device.handle(), slot.pool,
+                                           static_cast<std::uint32_t>(slot.commands.size()),
+                                           slot.commands.data());
+    slot.commands.clear();
+  }
   slot.sets.reset();
   state.pool.begin(state.frame);
   state.recording = true;
@@ -337,6 +344,7 @@ VkCommandBuffer FrameGraph::State::open() {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   gpu::check(device.vk().vkAllocateCommandBuffers(device.handle(), &info, &commands), "gpu",
              "vkAllocateCommandBuffers");
+  slot().commands.push_back(commands);
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   gpu::check(device.vk().vkBeginCommandBuffer(commands, &begin), "gpu", "vkBeginCommandBuffer");
