@@ -41,6 +41,12 @@ const std::vector<Option>& options() {
        .help = "what keeps light near to a virtual light finite: a least distance by its area, the light of "
                "a disc of that area, "
                "or nothing"},
+      {.name = "visibility",
+       .default_value = std::string("off"),
+       .choices = {"off", "rays"},
+       .help = "whether what stands in the way hides virtual lights: rays on the host from every subsplat to "
+               "every light; not in "
+               "mode full"},
       {.name = "normal_threshold",
        .default_value = 0.2f,
        .minimum = 0.0,
@@ -74,8 +80,10 @@ const std::vector<Option>& options() {
        .help = "texels on the picture's shorter side at the finest level, at most; 0: pixels"},
       {.name = "upsample",
        .default_value = std::string("surfaces"),
-       .choices = {"surfaces", "paper", "blocks"},
-       .help = "how levels become pixels: interpolated along surfaces, as the paper has it, or not at all"},
+       .choices = {"surfaces", "paper", "naive", "blocks", "levels"},
+       .help = "how levels become pixels: interpolated along surfaces, or as the paper has it; to look at: "
+               "with gaps as "
+               "darkness, not at all, or a colour a level"},
       {.name = "detail",
        .default_value = 0.0f,
        .minimum = 0.0,
@@ -139,6 +147,7 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
   const int bound = boundKind(settings.choice("bound"));
   const Plan plan = planLevels(inputs.gbuffer.width, inputs.gbuffer.height, settings.integer("coarsest"),
                                settings.integer("resolution"));
+  const std::string& visibility = settings.choice("visibility");
   gpu::ImageRef irradiance;
   if (settings.choice("mode") == "full" || plan.coarsest == 0) {
     irradiance = recordFull(graph, inputs, vpls, bound);
@@ -147,10 +156,13 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
     const std::string& upsample = settings.choice("upsample");
     const Upsampling upsampling = upsample == "surfaces" ? Upsampling::kSurfaces
                                   : upsample == "paper"  ? Upsampling::kPaper
+                                  : upsample == "naive"  ? Upsampling::kNaive
                                                          : Upsampling::kBlocks;
     std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
     const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, vpls);
-    recordGather(graph, inputs, plan, levels, subsplats, vpls, {bound, settings.number("light_threshold")});
+    recordGather(graph, inputs, plan, levels, subsplats, vpls,
+                 {upsample == "levels", visibility == "rays" ? &rays_ : nullptr, bound,
+                  settings.number("light_threshold")});
     irradiance = recordUpsampling(graph, levels, thresholds, upsampling, settings.number("detail"),
                                   inputs.view, inputs.gbuffer.normals);
   }

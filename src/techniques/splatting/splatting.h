@@ -6,6 +6,7 @@
 #pragma once
 
 #include "techniques/technique.h"
+#include "visibility/host_rays.h"
 
 namespace gloam::splatting {
 
@@ -16,6 +17,9 @@ class Splatting : public Technique {
   explicit Splatting(gpu::Device&) {}
   frame::Lighting record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                          const Settings& settings) override;
+
+ private:
+  visibility::HostRays rays_;
 };
 
 }  // namespace gloam::splatting

@@ -23,6 +23,7 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(result)))) return;
   vec4 value = all(lessThan(at, textureSize(own, 0))) ? texelFetch(own, at, 0) : vec4(0.0);
+  if (way == 2) value = vec4(value.rgb + fromCoarser(coarse, at).rgb, 1.0);
   if (value.a <= 0.0) value = fromCoarser(coarse, at);
   if (detail > 0.0) {
     vec3 to_eye = -normalize(pixelRay(frame_view.view, vec2(at) + 0.5).direction);

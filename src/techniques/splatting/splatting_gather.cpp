@@ -7,6 +7,7 @@
 
 #include "shaders/splatting_shaders.h"
 #include "techniques/splatting/splatting_levels.h"
+#include "techniques/splatting/splatting_visibility.h"
 
 namespace gloam::splatting {
 
@@ -44,12 +45,25 @@ void recordPoints(const Step& step, int k) {
 }
 
 void recordLight(const Step& step, int k, bool measures) {
+  const Level& level = step.levels[std::size_t(k)];
+  const bool shadowed = step.options.rays != nullptr;
+  gpu::BufferRef visible = step.graph.findBuffer("splatting.nothing");
+  if (shadowed)
+    visible =
+        step.graph.create(fmt::format("splatting.visible_{}", k),
+                          gpu::BufferDesc{.bytes = 8 * std::size_t(level.width) * std::size_t(level.height)});
+  const auto shared = std::make_shared<LevelPlaces>();
   for (std::uint32_t i = 0; i < step.vpls.chunks(); ++i) {
+    if (shadowed)
+      recordVisibility(step.graph, step.inputs, step.subsplats, step.vpls, *step.options.rays,
+                       {k, i, visible}, shared);
     auto& pass = step.graph.compute("splatting.gather", splatting_gather_spv);
     (i == 0 ? pass.write("light", step.subsplats.light) : pass.readWrite("light", step.subsplats.light))
         .specialize("first", i == 0)
         .specialize("measures", measures)
+        .specialize("shadowed", shadowed)
         .specialize("bound_kind", step.options.bound_kind)
+        .read("visible", visible)
         .read("vpls", step.vpls.chunk(i))
         .read("counts", step.subsplats.counts)
         .read("subsplats", step.subsplats.points)
@@ -81,6 +95,7 @@ void recordPlacing(const Step& step, int k) {
   step.graph.clear("splatting.place", level.light);
   step.graph.compute("splatting.place", splatting_place_spv)
       .read("counts", step.subsplats.counts)
+      .specialize("paints_levels", step.options.paints_levels)
       .read("leaves", level.leaves)
       .read("light", step.subsplats.light)
       .write("level_light", level.light)

@@ -7,6 +7,7 @@
 
 #include "frame/frame_inputs.h"
 #include "techniques/splatting/splatting_shared.h"
+#include "visibility/host_rays.h"
 #include "vpls/vpls.h"
 
 namespace gloam::splatting {
@@ -46,12 +47,14 @@ Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inp
                            std::vector<Level>& levels, const Thresholds& thresholds, const vpls::Vpls& vpls);
 
 struct GatherOptions {
-  int bound_kind = 1;  ///< splatting_light.glsl
+  bool paints_levels = false;            ///< a colour a level in place of light, to look at
+  visibility::HostRays* rays = nullptr;  ///< MS-8: lights are hidden by what stands in the way
+  int bound_kind = 1;                    ///< splatting_light.glsl
   float light_threshold =
       0.0f;  ///< MS-10: texels larger than this part of the mean distance of their light are split; 0: none
 };
 
-/// MS-5, from coarse to fine: "splatting.points", "splatting.gather", "splatting.converge", "splatting.place"; sets the levels'
+/// MS-5, from coarse to fine: "splatting.points", "splatting.visibility", "splatting.gather", "splatting.converge", "splatting.place"; sets the levels'
 /// light.
 void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                   std::vector<Level>& levels, const Subsplats& subsplats, const vpls::Vpls& vpls,
@@ -60,7 +63,8 @@ void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, cons
 enum class Upsampling : std::uint8_t {
   kSurfaces,  ///< MS-6, and not across edges that run along borders of texels
   kPaper,     ///< MS-6
-  kBlocks     ///< nearest, to look at
+  kNaive,     ///< to look at: each level interpolated with its gaps as darkness, and all added up
+  kBlocks     ///< to look at: nearest
 };
 
 /// MS-6 and MS-7: passes "splatting.upsample" and "splatting.finish". Levels 0 … coarsest, at least two; where `light` is empty

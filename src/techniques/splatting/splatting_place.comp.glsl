@@ -8,6 +8,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "techniques/splatting/splatting_shared.h"
 
+layout(constant_id = 0) const bool paints_levels = false;  // to look at
+
+/// A colour a level, from pixels (white) to coarse ones.
+const vec3 kColors[8] = vec3[8](vec3(0.9), vec3(0.9, 0.2, 0.15), vec3(0.95, 0.6, 0.1), vec3(0.75, 0.8, 0.15), vec3(0.15, 0.7, 0.3),
+                                vec3(0.1, 0.6, 0.75), vec3(0.15, 0.25, 0.8), vec3(0.5, 0.15, 0.7));
+
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) readonly buffer CountsBlock { Counts value; } counts;
 layout(scalar, set = 0, binding = 1) readonly buffer Leaves { uint at[]; } leaves;
@@ -20,5 +26,6 @@ void main() {
   if (index >= counts.value.leaves[push.level]) return;
   uint place = leaves.at[index];
   vec3 irradiance = light.at[counts.value.first_leaf[push.level] + index].rgb;
+  if (paints_levels) irradiance = kColors[min(push.level, 7)];
   imageStore(level_light, ivec2(place & 0xffffu, (place & ~kSplit) >> 16), vec4(irradiance, (place & kSplit) != 0u ? -1.0 : 1.0));
 }

@@ -4,6 +4,7 @@
 
 #include "frame/test_frame.h"
 #include "techniques/splatting/splatting_levels.h"
+#include "golden.h"
 
 namespace gloam::splatting {
 namespace {
@@ -138,6 +139,32 @@ TEST(Splatting, FullSumIsThatOverAllLights) {
   }
 }
 
+// Nothing stands in the way inside a sphere; behind a wall stands the dark.
+TEST(Splatting, RaysTakeWhatIsHiddenAndNothingElse) {
+  SceneBuilder builder("sphere");
+  builder.place("sphere", shapes::icosphere(2.0f, 40), builder.diffuse("white", glm::vec3(0.8f)));
+  Light lamp;
+  lamp.type = Light::Type::kPoint;
+  builder.light(lamp, {0.5f, -0.3f, 0.8f});
+  const PosedCamera inside = frame::cameraAt({0.2f, 0.1f, 0.0f}, {-1, 0.2f, -1}, 80);
+  const Scene sphere = builder.finish();
+  const Picture open = draw(sphere, settings({{"sampling", "importance"}}), 64, 48, &inside);
+  const Picture traced =
+      draw(sphere, settings({{"sampling", "importance"}, {"visibility", "rays"}}), 64, 48, &inside);
+  EXPECT_LT(relativeError(traced, open), 0.01);
+
+  const Scene room = loadScene("builtin:lamp?detail=0.3");
+  const Picture all = draw(room, settings({}), 64, 48),
+                seen = draw(room, settings({{"visibility", "rays"}}), 64, 48);
+  double lost = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < all.irradiance.size(); i += 4) {
+    whole += all.irradiance[i];
+    lost += all.irradiance[i] - seen.irradiance[i];
+  }
+  EXPECT_GT(lost, 0.3 * whole);  // light that would come through walls
+  EXPECT_LT(lost, 0.7 * whole);
+}
+
 TEST(Splatting, DetailDarkensWhatIsTurnedAway) {
   const Scene scene = loadScene("builtin:cornell?detail=0.5");
   const Picture plain = draw(scene, settings({}), 64, 64);
@@ -215,6 +242,29 @@ TEST(Splatting, WhatIsAskedForBadlyHasAnAnswer) {
   }
   lamp.light.intensity = glm::vec3(0.0f);
   EXPECT_EQ(terms(posed, settings({})), 0u);
+}
+
+TEST(Splatting, GoldenRoom) {
+  Scene scene = loadScene("builtin:lamp?detail=0.5");
+  frame::TestFrame frame(scene);
+  Splatting technique(gpu::testDevice());
+  const PosedScene posed = pose(scene, 0.0f);
+  const Settings chosen = settings({{"visibility", "rays"}, {"vpls", "400"}});
+  const frame::FrameImages images = frame.draw(posed, posed.cameras.at(0), {.width = 96, .height = 72},
+                                               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                                                 return technique.record(graph, inputs, chosen);
+                                               });
+  const std::vector<float> color = images.color.image().downloadFloats();
+  Image picture(96, 72, 4);
+  for (int y = 0; y < 72; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      for (int c = 0; c < 4; ++c) {
+        const float value = color[4 * std::size_t(y * 96 + x) + std::size_t(c)];
+        picture.at(x, y)[c] = c == 3 ? 1.0f : std::min(value, 1.0f);
+      }
+    }
+  }
+  EXPECT_EQ(test::compareWithGolden(picture, "lamp_splatting"), "");
 }
 
 TEST(Splatting, SamePictureAgain) {

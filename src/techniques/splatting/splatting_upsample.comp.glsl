@@ -40,6 +40,10 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(result)))) return;
   vec4 value = all(lessThan(at, textureSize(own, 0))) ? texelFetch(own, at, 0) : vec4(0.0);
+  if (way == 2) {
+    if (value.a < 0.0) value = vec4(0.0);
+    if (!coarsest) value = vec4(value.rgb + fromCoarser(coarse, at).rgb, 1.0);
+  }
   if (!coarsest && value.a == 0.0) value = fromCoarser(coarse, at);
   uint bits = along_surfaces ? neighbours(at) : 255u;
   imageStore(result, at, value.a != 0.0 ? vec4(value.rgb, sign(value.a) * (1.0 + float(bits))) : vec4(0.0));

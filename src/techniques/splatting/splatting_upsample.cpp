@@ -20,6 +20,7 @@ gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> le
         name, gpu::ImageDesc{
                   .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = level.width, .height = level.height});
   };
+  const int way = upsampling == Upsampling::kBlocks ? 1 : (upsampling == Upsampling::kNaive ? 2 : 0);
   gpu::ImageRef coarse = none;
   for (std::size_t k = levels.size() - 1; k > 0; --k) {
     const Level& level = levels[k];
@@ -27,7 +28,7 @@ gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> le
     graph.compute("splatting.upsample", splatting_upsample_spv)
         .specialize("coarsest", k + 1 == levels.size())
         .specialize("along_surfaces", upsampling == Upsampling::kSurfaces)
-        .specialize("interpolates", upsampling != Upsampling::kBlocks)
+        .specialize("way", way)
         .read("own", or_none(level.light))
         .read("coarse", coarse)
         .read("least", level.least)
@@ -40,7 +41,7 @@ gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> le
   const auto irradiance = result(levels[0], "splatting.irradiance");
   graph.compute("splatting.finish", splatting_finish_spv)
       .specialize("detail", detail)
-      .specialize("interpolates", upsampling != Upsampling::kBlocks)
+      .specialize("way", way)
       .read("frame_view", view)
       .read("own", or_none(levels[0].light))
       .read("coarse", coarse)
