@@ -17,6 +17,7 @@ struct Paper {
 };
 constexpr Paper kPapers[] = {
     {"proxies", measureProxiesPaper},
+    {"spherical_lights", measureSphericalLightsPaper},
 };
 
 const char* betterText(PaperRow::Better better) {

@@ -44,5 +44,6 @@ std::vector<std::string> techniquesWithPaper();
 int benchPaper(const BenchChoice& choice, Console& console);
 
 PaperTable measureProxiesPaper(const BenchChoice& choice, Console& console);
+PaperTable measureSphericalLightsPaper(const BenchChoice& choice, Console& console);
 
 }  // namespace gloam::cli

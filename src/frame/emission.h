@@ -26,6 +26,14 @@ struct ProxyEmission {
   const sh::ShRgb* glow = nullptr;    ///< four bands
 };
 
+/// A rectangle of something that has no proxies: ground, a wall.
+struct Patch {
+  glm::vec3 center{0.0f};
+  glm::vec3 half_u{0.0f}, half_v{0.0f};  ///< from its middle to the middle of its sides
+  glm::vec3 normal{0.0f};                ///< unit; it sends to that side
+  glm::vec3 albedo{0.5f};
+};
+
 /// Valid as long as who posed it keeps it.
 struct Emission {
   int points_each = 0;  ///< a proxy
@@ -35,6 +43,7 @@ struct Emission {
   int words = 0;
   std::vector<std::uint32_t> meets;
   bool glows = false;  ///< any
+  std::vector<Patch> sending_patches, blocking_patches;
 };
 
 }  // namespace gloam::frame

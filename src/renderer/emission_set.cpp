@@ -13,6 +13,8 @@ namespace gloam {
 
 namespace {
 
+constexpr int kSendingPatches = 160, kBlockingPatches = 12;
+
 [[noreturn]] void refuse() {
   throw Error("emission of spheres", "belongs to other spheres or to another scene");
 }
@@ -92,6 +94,7 @@ EmissionSet::EmissionSet(const Scene& scene, const SceneSpheres& spheres, const 
     set.meets = meetingPairs(given, shares.at(s), set.words);
     sets_.push_back(std::move(set));
   }
+  flats_ = FlatPatches(scene, spheres, kSendingPatches, kBlockingPatches);
 }
 
 frame::EmissionPoint EmissionSet::place(const Point& point, const Instance& instance,
@@ -142,6 +145,7 @@ frame::Emission EmissionSet::posed(const PosedScene& posed, std::span<const Pose
     }
     first = end;
   }
+  flats_.pose(posed, emission);
   return emission;
 }
 

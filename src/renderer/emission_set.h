@@ -8,6 +8,7 @@
 #include <gloam/spherical_lights.h>
 
 #include "frame/emission.h"
+#include "renderer/flat_patches.h"
 
 namespace gloam {
 
@@ -38,6 +39,7 @@ class EmissionSet {
   static frame::EmissionPoint place(const Point& point, const Instance& instance, const glm::mat3& normals);
 
   std::vector<Set> sets_;
+  FlatPatches flats_;
   bool glows_ = false;
 };
 

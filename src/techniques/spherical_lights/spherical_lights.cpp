@@ -51,10 +51,10 @@ const std::vector<Option>& options() {
        .default_value = true,
        .help = "per_sphere: what nearer spheres block is summed once for all, not for each sphere again"},
       {.name = "visibility",
-       .default_value = std::string("product"),
-       .choices = {"product", "difference"},
-       .help = "of a sphere behind others: its disc times what they leave, or the difference of two "
-               "exponentials (the paper's)"},
+       .default_value = std::string("mean"),
+       .choices = {"mean", "product", "difference"},
+       .help = "of a sphere behind others: by the mean log over its disc; its disc times what they leave; or "
+               "the difference of two exponentials (the paper's)"},
       {.name = "average",
        .default_value = std::string("solid_angle"),
        .choices = {"solid_angle", "area"},
@@ -67,6 +67,10 @@ const std::vector<Option>& options() {
        .help =
            "metres: point lamps shine as balls of that radius, with soft shadows of spheres; 0: as points, "
            "by shadow maps"},
+      {.name = "flats",
+       .default_value = true,
+       .help = "what has no spheres (ground, walls, rooms) stands in the light, too, and sends it, as "
+               "rectangles"},
       {.name = "indirect",
        .default_value = true,
        .help = "light that spheres send; without it, shadows alone"},
@@ -75,6 +79,11 @@ const std::vector<Option>& options() {
        .choices = {"none", "hann", "lanczos", "auto"},
        .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"}};
   return options;
+}
+
+int visibilityOf(const Settings& settings) {
+  const std::string& name = settings.choice("visibility");
+  return name == "mean" ? kMean : name == "product" ? kProduct : kDifference;
 }
 
 bool lampsAreBalls(const frame::FrameInputs& inputs, const Settings& settings) {
@@ -116,10 +125,10 @@ const TechniqueInfo& info() {
 }
 
 SphericalLights::SphericalLights(gpu::Device& device)
-    : log_table_(device, "spherical_lights.log_table", logVisibilityTable()),
-      area_table_(device, "spherical_lights.area_table", averageTable(Average::kArea)),
-      solid_angle_table_(device, "spherical_lights.solid_angle_table", averageTable(Average::kSolidAngle)),
-      cells_(device, "spherical_lights.cells", cellRows()) {}
+    : cells_(device, "spherical_lights.cells", cellRows()),
+      area_fit_(averageFit(Average::kArea)),
+      solid_angle_fit_(averageFit(Average::kSolidAngle)),
+      log_fit_(logFit()) {}
 
 /// What of a frame both passes read.
 struct SphericalLights::Step {
@@ -128,7 +137,7 @@ struct SphericalLights::Step {
   const Settings& settings;
   const Rows& rows;
   bool lamps_are_balls, indirect;
-  gpu::BufferRef light, spheres, objects, meets, glow, averages;
+  gpu::BufferRef light, spheres, objects, meets, glow, blocking_patches, sending_patches, patch_radiance;
   GatherParams params;
 };
 
@@ -140,19 +149,16 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
   const gpu::BufferRef points = uploadRows(graph, "spherical_lights.points", rows.points);
   const gpu::BufferRef arriving =
       graph.create("spherical_lights.arriving", gpu::BufferDesc{.bytes = point_count * sizeof(glm::vec3)});
-  const gpu::BufferRef sent =
-      graph.create("spherical_lights.sent", gpu::BufferDesc{.bytes = count * sizeof(SentRow)});
   graph.compute("spherical_lights.samples", spherical_lights_samples_spv)
       .specialize("blocking", blockingOf(step.settings))
-      .specialize("difference", step.settings.choice("visibility") == "difference")
+      .specialize("visibility_kind", visibilityOf(step.settings))
       .specialize("glows", !rows.glow.empty())
       .read("points", points)
       .read("spheres", step.spheres)
       .read("objects", step.objects)
       .read("glow", step.glow)
       .read("meets", step.meets)
-      .read("log_table", log_table_)
-      .read("average_table", step.averages)
+      .read("blocking_patches", step.blocking_patches)
       .read("light", step.light)
       .write("arriving", arriving)
       .push(SampleParams{step.params, point_count})
@@ -168,6 +174,17 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
         .push(point_count)
         .dispatchOver(int(point_count));
   }
+  if (const auto patches = step.params.sending_patches; patches > 0) {
+    graph.compute("spherical_lights.flats", spherical_lights_flats_spv)
+        .read("arriving", arriving)
+        .read("sending_patches", step.sending_patches)
+        .write("patch_radiance", step.patch_radiance)
+        .push(FlatParams{patches, point_count - patches * kPatchPoints})
+        .dispatchOver(int(patches));
+  }
+  if (count == 0) return step.glow;
+  const gpu::BufferRef sent =
+      graph.create("spherical_lights.sent", gpu::BufferDesc{.bytes = count * sizeof(SentRow)});
   graph.compute("spherical_lights.emit", spherical_lights_emit_spv)
       .read("arriving", arriving)
       .read("cells", cells_)
@@ -186,10 +203,18 @@ frame::Lighting SphericalLights::recordGathering(const Step& step, gpu::BufferRe
   };
   const gpu::ImageRef direct = image("spherical_lights.direct", kHalves);
   const gpu::ImageRef indirect = image("spherical_lights.indirect", kHalves);
-  step.graph.compute("spherical_lights.gather", spherical_lights_gather_spv)
-      .specialize("blocking", blockingOf(step.settings))
-      .specialize("difference", step.settings.choice("visibility") == "difference")
-      .specialize("has_indirect", step.indirect)
+  const bool quick = visibilityOf(step.settings) == kMean && blockingOf(step.settings) == kPerObject &&
+                     step.rows.objects.size() <= kMostKept;
+  auto& pass = step.graph.compute("spherical_lights.gather",
+                                  quick ? spherical_lights_receive_spv : spherical_lights_gather_spv);
+  if (!quick) {
+    pass.specialize("blocking", blockingOf(step.settings))
+        .specialize("visibility_kind", visibilityOf(step.settings))
+        .read("meets", step.meets);
+  } else {
+    pass.read("apart", uploadRows(step.graph, "spherical_lights.apart", step.rows.apart));
+  }
+  pass.specialize("has_indirect", step.indirect)
       .specialize("glows", !step.rows.glow.empty())
       .read("receiver_position", level.position)
       .read("receiver_normal", level.normal_depth)
@@ -197,9 +222,9 @@ frame::Lighting SphericalLights::recordGathering(const Step& step, gpu::BufferRe
       .read("objects", step.objects)
       .read("sent", sent)
       .read("glow", step.glow)
-      .read("meets", step.meets)
-      .read("log_table", log_table_)
-      .read("average_table", step.averages)
+      .read("blocking_patches", step.blocking_patches)
+      .read("sending_patches", step.sending_patches)
+      .read("patch_radiance", step.patch_radiance)
       .read("light", step.light)
       .write("direct", direct)
       .write("indirect", indirect)
@@ -221,22 +246,37 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   warnOfMeetingObjects(rows, inputs.warnings);
   const bool balls = lampsAreBalls(inputs, settings);
   if (balls) addLamps(rows, inputs.shadow_maps.lights, settings.number("lamp_radius"), inputs.warnings);
+  if (!settings.flag("flats")) rows.sending_patches.clear(), rows.blocking_patches.clear();
+  if (!settings.flag("indirect")) rows.sending_patches.clear();
+  addPatchPoints(rows);
   const auto count = std::uint32_t(rows.spheres.size());
+  const auto patches = std::uint32_t(rows.sending_patches.size());
+  const gpu::BufferRef patch_radiance = graph.create(
+      "spherical_lights.patch_radiance", gpu::BufferDesc{.bytes = std::max(1u, patches) * sizeof(glm::vec3)});
+  if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), kEmissionOrder, windowOf(settings.choice("window")));
-  const Step step{.graph = graph,
-                  .inputs = inputs,
-                  .settings = settings,
-                  .rows = rows,
-                  .lamps_are_balls = balls,
-                  .indirect = settings.flag("indirect") && count > 0,
-                  .light = graph.uploadOne("spherical_lights.light", lightRows(light)),
-                  .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
-                  .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
-                  .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
-                  .glow = uploadRows(graph, "spherical_lights.glow", rows.glow),
-                  .averages = settings.choice("average") == "area" ? area_table_ : solid_angle_table_,
-                  .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words)}};
+  LightRows row = lightRows(light);
+  std::ranges::copy(log_fit_[0], row.log_fit);
+  std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
+  std::ranges::copy(settings.choice("average") == "area" ? area_fit_ : solid_angle_fit_, row.average_fit);
+  const Step step{
+      .graph = graph,
+      .inputs = inputs,
+      .settings = settings,
+      .rows = rows,
+      .lamps_are_balls = balls,
+      .indirect = settings.flag("indirect") && count + patches > 0,
+      .light = graph.uploadOne("spherical_lights.light", row),
+      .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
+      .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
+      .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
+      .glow = uploadRows(graph, "spherical_lights.glow", rows.glow),
+      .blocking_patches = uploadRows(graph, "spherical_lights.blocking_patches", rows.blocking_patches),
+      .sending_patches = uploadRows(graph, "spherical_lights.sending_patches", rows.sending_patches),
+      .patch_radiance = patch_radiance,
+      .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words),
+                 std::uint32_t(rows.blocking_patches.size()), patches}};
   return recordGathering(step, step.indirect ? recordSending(step) : step.glow);
 }
 

@@ -5,6 +5,7 @@
 // colour, by spheres whose light is shadowed where it arrives and where it goes. README.md has the rest.
 #pragma once
 
+#include "techniques/spherical_lights/spherical_lights_tables.h"
 #include "techniques/technique.h"
 
 namespace gloam::spherical_lights {
@@ -22,7 +23,9 @@ class SphericalLights : public Technique {
   gpu::BufferRef recordSending(const Step& step);
   frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent);
 
-  gpu::Buffer log_table_, area_table_, solid_angle_table_, cells_;
+  gpu::Buffer cells_;
+  Fit area_fit_, solid_angle_fit_;
+  LogFit log_fit_;
 };
 
 }  // namespace gloam::spherical_lights

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What one sphere blocks at a receiver, and functions of four bands as four vec4 (the software driver keeps indexed arrays in
-// memory). Includers declare the buffers spheres and log_table.
+// memory). Includers declare the buffer spheres and the uniform block light.
 #ifndef GLOAM_SPHERICAL_LIGHTS_BLOCKERS_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_BLOCKERS_GLSL
 #include "math/sh.glsl"
@@ -35,28 +35,37 @@ Sh4 basisAt(vec3 direction) {
   return GLOAM_SH4_OF(y);
 }
 
-/// Place in a table of kLogEntries: below, fraction.
-struct TablePlace {
-  int below;
-  float f;
-};
-TablePlace tablePlace(float sin_half_angle) {
-  float at = shLogBlockerCoordinate(sin_half_angle) * float(kLogEntries - 1);
-  int below = min(int(at), kLogEntries - 2);
-  return TablePlace(below, at - float(below));
+#define GLOAM_FIT(c, x) \
+  (((((((((c(9) * x + c(8)) * x + c(7)) * x + c(6)) * x + c(5)) * x + c(4)) * x + c(3)) * x + c(2)) * x + c(1)) * x + c(0))
+/// Logs of what a sphere leaves visible, by band.
+vec4 logWeights(float sin_half_angle) {
+  float t = shLogBlockerCoordinate(sin_half_angle);
+  bool high = t > kLogSplit;
+  float x = high ? 2.0 * (t - kLogSplit) / (1.0 - kLogSplit) - 1.0 : 2.0 * t / kLogSplit - 1.0;
+#define GLOAM_LOG(i) (high ? light.rows.log_fit[kFitTerms + i] : light.rows.log_fit[i])
+  return sin_half_angle * sin_half_angle * GLOAM_FIT(GLOAM_LOG, x);
 }
-vec4 logAt(TablePlace at) { return mix(log_table.at[at.below], log_table.at[at.below + 1], at.f); }
+vec4 averageWeights(float sin_half_angle) {
+  float x = 2.0 * shLogBlockerCoordinate(sin_half_angle) - 1.0;
+#define GLOAM_AVERAGE(i) light.rows.average_fit[i]
+  return GLOAM_FIT(GLOAM_AVERAGE, x);
+}
 
 /// G of sphere j at a receiver.
 Sh4 logOf(vec3 position, vec3 normal, uint j) {
   SeenSphere seen = seenSphere(position, normal, spheres.at[j].center, spheres.at[j].radius);
-  return scaled(basisAt(seen.direction), logAt(tablePlace(seen.sin_half_angle)) * spheres.at[j].blocks);
+  return scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * spheres.at[j].blocks);
 }
 
 /// V . f of a disc that size: factors of bands.
 vec4 discWeights(float a) {
   float a2 = a * a, c2 = max(0.0, 1.0 - a2), c = sqrt(c2);
   return 3.14159265 * a2 * vec4(2.0 / (1.0 + c), 1.0, c, 0.25 * (5.0 * c2 - 1.0));
+}
+
+/// Legendre's P_0 to P_3, times (2 l + 1) / 4 pi: what a zonal function has at that cosine from its axis.
+vec4 zonalAt(float x) {
+  return vec4(0.0795774715, 0.238732415 * x, 0.397887358 * (1.5 * x * x - 0.5), 0.557042301 * x * (2.5 * x * x - 1.5));
 }
 
 #endif

@@ -9,7 +9,7 @@
 #include "techniques/spherical_lights/spherical_lights_shared.h"
 
 layout(constant_id = 0) const int blocking = 0;
-layout(constant_id = 1) const bool difference = false;  // of two exponentials: the paper's; else a product
+layout(constant_id = 1) const int visibility_kind = 1;
 layout(constant_id = 2) const bool has_indirect = true;
 layout(constant_id = 3) const bool glows = false;
 
@@ -21,13 +21,14 @@ layout(scalar, set = 0, binding = 3) readonly buffer Objects { ObjectRow at[]; }
 layout(scalar, set = 0, binding = 4) readonly buffer Sent { SentRow at[]; } sent;
 layout(scalar, set = 0, binding = 13) readonly buffer Glow { SentRow at[]; } glow;
 layout(scalar, set = 0, binding = 5) readonly buffer Meets { uint at[]; } meets;
-layout(scalar, set = 0, binding = 6) readonly buffer LogTable { vec4 at[]; } log_table;
-layout(scalar, set = 0, binding = 7) readonly buffer AverageTable { vec4 at[]; } average_table;
 layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows rows; } light;
 layout(set = 0, binding = 9) uniform writeonly image2D direct;
 layout(set = 0, binding = 10) uniform writeonly image2D indirect;
 layout(set = 0, binding = 11) uniform writeonly image2D visibility;
 layout(set = 0, binding = 12) uniform writeonly image2D unblocked;
+layout(scalar, set = 0, binding = 20) readonly buffer BlockingPatches { PatchRow at[]; } blocking_patches;
+layout(scalar, set = 0, binding = 21) readonly buffer SendingPatches { PatchRow at[]; } sending_patches;
+layout(scalar, set = 0, binding = 22) readonly buffer PatchRadiance { vec3 at[]; } patch_radiance;
 layout(scalar, push_constant) uniform Push { GatherParams params; } push;
 
 #include "techniques/spherical_lights/spherical_lights_gather.glsl"

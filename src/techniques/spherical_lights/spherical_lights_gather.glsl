@@ -1,17 +1,14 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// All light at one receiver. Includers declare the constants blocking, difference, has_indirect, glows, the buffers spheres, objects,
-// sent, glow, meets, log_table, average_table, the uniform block light, and push push.params.
+// All light at one receiver, any way (spherical_lights_receive.glsl is the quick one). Includers declare the constants blocking, visibility_kind, has_indirect, glows, the buffers spheres,
+// objects, sent, glow, meets, the uniform block light, and push push.params.
 #ifndef GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+#include "techniques/spherical_lights/spherical_lights_patches.glsl"
+#include "techniques/spherical_lights/spherical_lights_radiance.glsl"
 #include "techniques/spherical_lights/spherical_lights_shade.glsl"
-
-struct Gathered {
-  vec3 direct, indirect, unblocked;  // direct: with what glows by itself
-  float visibility;  // mean of what all spheres leave
-};
 
 /// The group (object, or sphere) that follows in order of its centre's distance, equal ones by number.
 uint nextGroup(vec3 position, inout float key, uint last) {
@@ -54,16 +51,6 @@ Sh4 blockersWithin(vec3 position, vec3 normal, uint i, inout bool any_there) {
   return sum;
 }
 
-/// SL-4: radiance of sphere i, averaged, where f is the basis from it to the receiver, bands by their weights.
-#define GLOAM_TERMS(row, v, j) \
-  (f.v.x * row.at[j] + f.v.y * row.at[j + 1] + f.v.z * row.at[j + 2] + f.v.w * row.at[j + 3])
-#define GLOAM_RADIANCE(row) \
-  max(GLOAM_TERMS(row, a, 0) + GLOAM_TERMS(row, b, 4) + GLOAM_TERMS(row, c, 8) + GLOAM_TERMS(row, d, 12), vec3(0.0))
-/// y: the basis toward the sphere.
-Sh4 averageAt(TablePlace at, Sh4 y) {
-  return scaled(y, mix(average_table.at[at.below], average_table.at[at.below + 1], at.f) * vec4(1.0, -1.0, 1.0, -1.0));
-}
-
 Gathered gather(vec3 position, vec3 normal) {
   Gathered got = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
   // The clamped cosine about the normal; its fourth band is 0.
@@ -74,14 +61,15 @@ Gathered gather(vec3 position, vec3 normal) {
   bool kept = false;  // seen_through is that of `before`
   float key = -1.0, clear = 0.0;
   uint last = 0xffffffffu, i = 0u, left = 0u;
-  uint steps = push.params.spheres;
+  uint steps = push.params.spheres + 1u;
+  // After all spheres: what they leave, through which patches are seen; then with patches before the environment, too.
   for (uint k = 0u; k <= steps; ++k) {
-    bool final = k == steps;
+    bool final = k == steps, spheres_done = k + 1u >= steps;
     if (left == 0u) {
       before = plus(before, own);
       own = kNothing;
       kept = false;
-      if (!final) {
+      if (!spheres_done) {
         last = nextGroup(position, key, last);
         i = blocking == kPerObject ? objects.at[last].first : last;
         left = blocking == kPerObject ? objects.at[last].count : 1u;
@@ -89,13 +77,12 @@ Gathered gather(vec3 position, vec3 normal) {
     }
     Sh4 blockers = before, y = kNothing, log_i = kNothing;
     SeenSphere seen = SeenSphere(0.0, normal);
-    TablePlace at = TablePlace(0, 0.0);
     bool more = false;
-    if (!final) {
+    if (final) blockers = plus(before, logOfPatches(position, normal));
+    if (!spheres_done) {
       seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
-      at = tablePlace(seen.sin_half_angle);
       y = basisAt(seen.direction);
-      log_i = scaled(y, logAt(at));
+      log_i = scaled(y, logWeights(seen.sin_half_angle));
       log_i = scaled(log_i, spheres.at[i].blocks);
       own = plus(own, log_i);
       if (send && seen.sin_half_angle > 0.0) {
@@ -107,9 +94,9 @@ Gathered gather(vec3 position, vec3 normal) {
       }
     }
     bool looked_at = send && seen.sin_half_angle > 0.0;
-    bool wanted = final || (looked_at && (more || !kept));
+    bool wanted = spheres_done || (visibility_kind != kMean && looked_at && (more || !kept));
     float behind = 0.0;
-    for (int t = 0; t < (difference ? 2 : 1); ++t) {
+    for (int t = 0; t < (visibility_kind == kDifference ? 2 : 1); ++t) {
       if (t == 0 ? !wanted : !looked_at) continue;
       Sh4 f = blockers;
       if (t == 1) f = plus(blockers, log_i);
@@ -118,7 +105,9 @@ Gathered gather(vec3 position, vec3 normal) {
       if (final) {
         got.direct = irradianceThrough(e, normal);
         got.visibility = e[0] / kShZonal0;
-      } else if (difference) {
+      } else if (spheres_done) {
+        if (has_indirect) got.indirect += lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+      } else if (visibility_kind == kDifference) {
         float through = dotOf(GLOAM_SH4_OF(e), cosine);
         if (t == 0) clear = through; else behind = through;
       } else {
@@ -130,9 +119,13 @@ Gathered gather(vec3 position, vec3 normal) {
     }
     if (looked_at) {
       vec4 disc = discWeights(seen.sin_half_angle);
-      float share = difference ? clear - behind : dotOf(scaled(y, disc), seen_through);
+      float share = visibility_kind == kDifference ? clear - behind : dotOf(scaled(y, disc), seen_through);
+      if (visibility_kind == kMean) {
+        float mean_log = dotOf(scaled(y, disc), blockers) / max(disc.x, 1e-12);
+        share = exp(min(mean_log, 0.0)) * dotOf(scaled(y, disc), cosine);
+      }
       share = max(share, 0.0);
-      Sh4 f = averageAt(at, y);
+      Sh4 f = averageAt(seen.sin_half_angle, y);
       if (has_indirect) {
         vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
         got.indirect += radiance * share;

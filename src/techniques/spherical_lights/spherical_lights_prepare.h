@@ -14,7 +14,7 @@ namespace gloam::spherical_lights {
 std::array<glm::vec3, kEmissionDirections> geodesicDirections();
 
 /// Y_j: integrals of the basis, four bands, over the directions that are nearest to direction j.
-std::array<sh::Sh, kEmissionDirections> voronoiSums();
+const std::array<sh::Sh, kEmissionDirections>& voronoiSums();
 
 std::string emissionFingerprint(const SphereSet& set);
 

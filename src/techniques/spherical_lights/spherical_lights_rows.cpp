@@ -36,6 +36,10 @@ SentRow glowOf(const frame::ProxyEmission& emission) {
   return row;
 }
 
+PatchRow patchRow(const frame::Patch& patch) {
+  return {patch.center, patch.half_u, patch.half_v, patch.normal, patch.albedo};
+}
+
 }  // namespace
 
 Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emission) {
@@ -47,7 +51,7 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
   for (std::size_t i = 0; i < proxies.size(); ++i) {
     const frame::ProxyEmission& sent = emission.proxies[i];
     rows.spheres.push_back({proxies[i].center, proxies[i].radius, std::uint32_t(sent.object),
-                            std::uint32_t(sent.first), std::uint32_t(sent.count), 1.0f});
+                            std::uint32_t(sent.first), std::uint32_t(sent.count), 0u, 0u, 1.0f});
     if (int(i) == sent.first)
       rows.objects.push_back({middleOf(proxies.subspan(i, std::size_t(sent.count))),
                               std::uint32_t(sent.first), std::uint32_t(sent.count)});
@@ -56,8 +60,27 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
   }
   for (const frame::EmissionPoint& point : emission.points)
     rows.points.push_back({point.position, point.sends, point.normal, 0.0f});
+  for (const frame::Patch& patch : emission.sending_patches) rows.sending_patches.push_back(patchRow(patch));
+  for (const frame::Patch& patch : emission.blocking_patches)
+    rows.blocking_patches.push_back(patchRow(patch));
   rows.meets = emission.meets;
+  for (std::size_t i = 0; i < rows.spheres.size(); ++i) {
+    SphereRow& row = rows.spheres[i];
+    row.first_apart = std::uint32_t(rows.apart.size());
+    for (std::uint32_t j = 0; j < row.count; ++j) {
+      const std::uint32_t word = rows.meets[i * std::size_t(rows.words) + j / 32];
+      if ((word >> (j % 32) & 1u) == 0) rows.apart.push_back(row.first + j);
+    }
+    row.apart = std::uint32_t(rows.apart.size()) - row.first_apart;
+  }
   return rows;
+}
+
+void addPatchPoints(Rows& rows) {
+  for (const PatchRow& row : rows.sending_patches) {
+    for (const glm::vec2& at : {glm::vec2(-0.5f, -0.5f), {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}})
+      rows.points.push_back({row.center + at.x * row.half_u + at.y * row.half_v, 1.0f, row.normal, 0.0f});
+  }
 }
 
 void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, Warnings& warnings) {
@@ -72,7 +95,8 @@ void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, 
     }
     const auto index = std::uint32_t(rows.spheres.size());
     rows.glow.resize(rows.spheres.size());
-    rows.spheres.push_back({lamp.position, radius, std::uint32_t(rows.objects.size()), index, 1u, 0.0f});
+    rows.spheres.push_back(
+        {lamp.position, radius, std::uint32_t(rows.objects.size()), index, 1u, 0u, 0u, 0.0f});
     rows.objects.push_back({lamp.position, index, 1u});
     SentRow glow{};  // a ball of radiance L has the intensity L pi r^2
     glow.at[0] = lamp.intensity / (3.14159265f * radius * radius) * sh::zonalFactor(0);

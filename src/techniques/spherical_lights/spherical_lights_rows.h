@@ -24,10 +24,15 @@ struct Rows {
   std::vector<SentRow> glow;         ///< world axes; empty where nothing glows
   std::vector<std::uint32_t> meets;  ///< `words` a sphere
   int words = 1;
+  std::vector<PatchRow> sending_patches,
+      blocking_patches;              ///< kPatchPoints points each of the first, after those of spheres
+  std::vector<std::uint32_t> apart;  ///< of each sphere: those of its object that it does not meet
 };
 
 /// Throws Error where proxies and emission do not fit together.
 Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emission);
+/// Samples of patches; to be called when all spheres are there.
+void addPatchPoints(Rows& rows);
 
 /// SL-9: adds point lamps as balls of that radius (metres) that glow as brightly and block nothing; says which stand within an
 /// object. Lamps of other kinds are left out.

@@ -9,7 +9,7 @@
 #include "techniques/spherical_lights/spherical_lights_shared.h"
 
 layout(constant_id = 0) const int blocking = 0;
-layout(constant_id = 1) const bool difference = false;
+layout(constant_id = 1) const int visibility_kind = 1;
 layout(constant_id = 2) const bool glows = false;
 const bool has_indirect = false;
 
@@ -20,17 +20,18 @@ layout(scalar, set = 0, binding = 2) readonly buffer Objects { ObjectRow at[]; }
 layout(scalar, set = 0, binding = 3) readonly buffer Sent { SentRow at[]; } sent;
 layout(scalar, set = 0, binding = 4) readonly buffer Glow { SentRow at[]; } glow;
 layout(scalar, set = 0, binding = 5) readonly buffer Meets { uint at[]; } meets;
-layout(scalar, set = 0, binding = 6) readonly buffer LogTable { vec4 at[]; } log_table;
-layout(scalar, set = 0, binding = 7) readonly buffer AverageTable { vec4 at[]; } average_table;
 layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows rows; } light;
 layout(scalar, set = 0, binding = 9) writeonly buffer Arriving { vec3 at[]; } arriving;
+layout(scalar, set = 0, binding = 20) readonly buffer BlockingPatches { PatchRow at[]; } blocking_patches;
+layout(scalar, set = 0, binding = 21) readonly buffer SendingPatches { PatchRow at[]; } sending_patches;
+layout(scalar, set = 0, binding = 22) readonly buffer PatchRadiance { vec3 at[]; } patch_radiance;
 layout(scalar, push_constant) uniform Push { GatherParams params; uint points; } push;
 
 #include "techniques/spherical_lights/spherical_lights_gather.glsl"
 
 /// The environment alone asks for no order.
 vec3 throughAll(vec3 position, vec3 normal) {
-  Sh4 logs = kNothing;
+  Sh4 logs = logOfPatches(position, normal);
   for (uint j = 0u; j < push.params.spheres; ++j) logs = plus(logs, logOf(position, normal, j));
   float o[16];
   shExpQuadratic4(GLOAM_ARRAY_OF(logs), o);

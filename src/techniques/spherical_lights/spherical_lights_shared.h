@@ -5,13 +5,22 @@
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(spherical_lights)
 
-/// Entries of the tables over the sine of a sphere's half-angle, at equal steps of shLogBlockerCoordinate.
-GLOAM_SHARED_CONST int kLogEntries = 256;
+/// Of the polynomials over the coordinate of a sphere's half-angle.
+GLOAM_SHARED_CONST int kFitTerms = 10;
+/// Where the least eigenvalue of what a sphere leaves visible meets its clamp, logs have a kink: two polynomials, to here and from here.
+GLOAM_SHARED_CONST float kLogSplit = 0.5843f;
 GLOAM_SHARED_CONST uint kDirections = 92u;
 
 GLOAM_SHARED_CONST int kPerObject = 0;
 GLOAM_SHARED_CONST int kPerSphere = 1;
 GLOAM_SHARED_CONST int kPerSphereReused = 2;
+
+GLOAM_SHARED_CONST int kMean = 0;
+GLOAM_SHARED_CONST int kProduct = 1;
+GLOAM_SHARED_CONST int kDifference = 2;
+
+/// As many objects' sums a receiver keeps at once.
+GLOAM_SHARED_CONST uint kMostKept = 32u;
 
 struct SphereRow {
   vec3 center;
@@ -19,9 +28,11 @@ struct SphereRow {
   uint object;
   uint first;  // of its object's spheres
   uint count;
+  uint first_apart;  // of the list of those of its object that it does not meet
+  uint apart;
   float blocks;  // 0: a lamp, which stands in nobody's light; 1
 };
-GLOAM_SHARED_SIZE(SphereRow, 32)
+GLOAM_SHARED_SIZE(SphereRow, 40)
 
 struct ObjectRow {
   vec3 center;
@@ -52,22 +63,43 @@ struct SentRow {
 };
 GLOAM_SHARED_SIZE(SentRow, 192)
 
-struct LightRows {
-  vec3 shade[144];  // Q[9 i + j]
+/// A rectangle of something without spheres.
+struct PatchRow {
+  vec3 center;
+  vec3 half_u;
+  vec3 half_v;
+  vec3 normal;
+  vec3 albedo;
 };
-GLOAM_SHARED_SIZE(LightRows, 1728)
+GLOAM_SHARED_SIZE(PatchRow, 60)
+/// Samples of one.
+GLOAM_SHARED_CONST uint kPatchPoints = 4u;
+
+struct LightRows {
+  vec3 shade[144];   // Q[9 i + j]
+  vec4 log_fit[20];  // 2 kFitTerms
+  vec4 average_fit[10];
+};
+GLOAM_SHARED_SIZE(LightRows, 2208)
 
 struct GatherParams {
   uint spheres;
   uint objects;
   uint words;  // of a sphere's bits: which it meets
+  uint blocking_patches;
+  uint sending_patches;
 };
-GLOAM_SHARED_SIZE(GatherParams, 12)
+GLOAM_SHARED_SIZE(GatherParams, 20)
+struct FlatParams {
+  uint patches;
+  uint first_point;
+};
+GLOAM_SHARED_SIZE(FlatParams, 8)
 struct SampleParams {
   GatherParams params;
   uint points;
 };
-GLOAM_SHARED_SIZE(SampleParams, 16)
+GLOAM_SHARED_SIZE(SampleParams, 24)
 
 GLOAM_SHARED_END
 #endif

@@ -55,7 +55,9 @@ std::array<glm::vec3, kEmissionDirections> geodesicDirections() {
   return all;
 }
 
-std::array<sh::Sh, kEmissionDirections> voronoiSums() {
+namespace {
+
+std::array<sh::Sh, kEmissionDirections> findVoronoiSums() {
   constexpr int kRows = 256;  // of equal area in cos, twice as many columns
   const auto& ways = emissionDirections();
   std::array<std::array<double, 16>, kEmissionDirections> sums{};
@@ -81,6 +83,13 @@ std::array<sh::Sh, kEmissionDirections> voronoiSums() {
   return result;
 }
 
+}  // namespace
+
+const std::array<sh::Sh, kEmissionDirections>& voronoiSums() {
+  static const auto sums = findVoronoiSums();
+  return sums;
+}
+
 glm::vec4 averageWeights(Average average, float sin_half_angle) {
   const double a = std::clamp(double(sin_half_angle), 0.0, 1.0 - 1e-6);
   constexpr int kSteps = 512;
@@ -98,22 +107,66 @@ glm::vec4 averageWeights(Average average, float sin_half_angle) {
   return {1.0f, float(sums[1] / sums[0]), float(sums[2] / sums[0]), float(sums[3] / sums[0])};
 }
 
-std::vector<glm::vec4> averageTable(Average average) {
-  std::vector<glm::vec4> rows;
-  for (int i = 0; i < kLogEntries; ++i)
-    rows.push_back(averageWeights(average, sh::logBlockerAlpha(float(i) / float(kLogEntries - 1))));
-  return rows;
+glm::vec4 logWeights(float sin_half_angle) {
+  const sh::Zh log = sh::logBlocker(kOrder, std::asin(std::clamp(sin_half_angle, 0.0f, 1.0f)));
+  glm::vec4 weights;
+  for (int l = 0; l < kOrder; ++l) weights[l] = log[l] * sh::zonalFactor(l);
+  return weights;
 }
 
-std::vector<glm::vec4> logVisibilityTable() {
-  const sh::LogBlockerTable table = sh::makeLogBlockerTable(kOrder, kLogEntries);
-  std::vector<glm::vec4> rows;
-  for (const sh::Zh& entry : table.entries) {
-    glm::vec4 row;
-    for (int l = 0; l < kOrder; ++l) row[l] = entry[l] * sh::zonalFactor(l);
-    rows.push_back(row);
+namespace {
+
+/// Through the values at Chebyshev's points, which is within a small factor of the best there is; then in powers.
+template <class Function>
+Fit fitOf(float from, float to, const Function& function) {
+  std::array<glm::dvec4, kFitTerms> chebyshev{};
+  for (int k = 0; k < kFitTerms; ++k) {
+    const double angle = kPi * (k + 0.5) / kFitTerms;
+    const float t = from + (to - from) * float(0.5 + 0.5 * std::cos(angle));
+    const glm::dvec4 value(function(sh::logBlockerAlpha(t)));
+    for (int n = 0; n < kFitTerms; ++n)
+      chebyshev[std::size_t(n)] += value * std::cos(n * angle) * ((n == 0 ? 1.0 : 2.0) / kFitTerms);
   }
-  return rows;
+  // T_0 = 1, T_1 = x, T_n = 2 x T_n-1 - T_n-2.
+  std::array<double, kFitTerms> before{1.0}, now{0.0, 1.0};
+  std::array<glm::dvec4, kFitTerms> powers{};
+  powers[0] = chebyshev[0];
+  for (std::size_t n = 1; n < kFitTerms; ++n) {
+    for (std::size_t i = 0; i <= n; ++i) powers[i] += chebyshev[n] * now[i];
+    std::array<double, kFitTerms> next{};
+    for (std::size_t i = 0; i + 1 < kFitTerms; ++i) next[i + 1] = 2.0 * now[i];
+    for (std::size_t i = 0; i < kFitTerms; ++i) next[i] -= before[i];
+    before = now, now = next;
+  }
+  Fit fit;
+  for (std::size_t i = 0; i < kFitTerms; ++i) fit[i] = glm::vec4(powers[i]);
+  return fit;
+}
+
+glm::vec4 valueOf(const Fit& fit, float x) {
+  glm::vec4 sum = fit[kFitTerms - 1];
+  for (int i = kFitTerms - 2; i >= 0; --i) sum = sum * x + fit[std::size_t(i)];
+  return sum;
+}
+
+}  // namespace
+
+Fit averageFit(Average average) {
+  return fitOf(0.0f, 1.0f, [&](float a) { return averageWeights(average, a); });
+}
+glm::vec4 averageFitted(const Fit& fit, float sin_half_angle) {
+  return valueOf(fit, 2.0f * sh::logBlockerCoordinate(sin_half_angle) - 1.0f);
+}
+
+LogFit logFit() {
+  const auto scaled = [](float a) { return logWeights(a) / (a * a); };
+  return {fitOf(0.0f, kLogSplit, scaled), fitOf(kLogSplit, 1.0f, scaled)};
+}
+glm::vec4 logFitted(const LogFit& fit, float sin_half_angle) {
+  const float t = sh::logBlockerCoordinate(sin_half_angle);
+  const float x =
+      t > kLogSplit ? 2.0f * (t - kLogSplit) / (1.0f - kLogSplit) - 1.0f : 2.0f * t / kLogSplit - 1.0f;
+  return sin_half_angle * sin_half_angle * valueOf(fit[t > kLogSplit ? 1 : 0], x);
 }
 
 glm::vec4 discWeights(float a) {

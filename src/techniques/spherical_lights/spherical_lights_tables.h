@@ -6,7 +6,7 @@
 
 #include <gloam/sh.h>
 
-#include <vector>
+#include <array>
 
 #include "techniques/spherical_lights/spherical_lights_shared.h"
 
@@ -20,10 +20,19 @@ enum class Average { kArea, kSolidAngle };
 /// radiance is the sum over l of w_l sum over m of L_lm y_lm(centre to receiver).
 glm::vec4 averageWeights(Average average, float sin_half_angle);
 
-/// kLogEntries of these, at equal steps of sh::logBlockerCoordinate.
-std::vector<glm::vec4> averageTable(Average average);
 /// Logs of what a sphere leaves visible, as zonal coefficients times sqrt(4 pi / (2 l + 1)) (SH-4).
-std::vector<glm::vec4> logVisibilityTable();
+glm::vec4 logWeights(float sin_half_angle);
+
+/// A polynomial from its constant term on: what tables would hold, since drivers that run on processors look up slowly.
+using Fit = std::array<glm::vec4, kFitTerms>;
+/// Of averageWeights, in 2 t - 1, t = sh::logBlockerCoordinate (0 to 1).
+Fit averageFit(Average average);
+glm::vec4 averageFitted(const Fit& fit, float sin_half_angle);
+/// Of logWeights over the square of the sine, so that small ones are as close as large ones; below and above kLogSplit, each in -1 … 1.
+using LogFit = std::array<Fit, 2>;
+LogFit logFit();
+glm::vec4 logFitted(const LogFit& fit, float sin_half_angle);
+
 /// D_l = 2 pi times the integral of P_l over the disc: V . f = sum over l of D_l sum over m of f_lm y_lm(to the sphere).
 glm::vec4 discWeights(float sin_half_angle);
 

@@ -21,11 +21,11 @@ struct TwinLight {
 
 class Twin {
  public:
-  Twin(Rows rows, const sh::ShRgb& light, Average average, int blocking, bool difference)
+  Twin(Rows rows, const sh::ShRgb& light, Average average, int blocking, int visibility)
       : rows_(std::move(rows)),
         light_(sh::truncated(light, 4)),
-        logs_(sh::makeLogBlockerTable(4, kLogEntries)),
-        averages_(averageTable(average)) {
+        logs_(logFit()),
+        averages_(averageFit(average)) {
     for (const SentRow& row : rows_.glow) {
       glow_.emplace_back(4);
       for (int i = 0; i < 16; ++i) glow_.back()[i] = row.at[i];
@@ -36,7 +36,7 @@ class Twin {
       for (std::size_t j = 0; j < cells.size(); ++j) {
         const PointRow& point = rows_.points[s * kDirections + j];
         const glm::vec3 leaving =
-            point.sends * at(point.position, point.normal, blocking, difference).direct / 3.14159265f;
+            point.sends * at(point.position, point.normal, blocking, visibility).direct / 3.14159265f;
         for (int i = 0; i < 16; ++i) lit[i] += leaving * cells[j][i];
       }
       sh::ShRgb sent(4);
@@ -46,8 +46,20 @@ class Twin {
         const sh::Sh product = sh::product(f, g);
         for (int i = 0; i < 16; ++i) sent[i][c] = product[i];
       }
+      sent.order = 4;
       sent_.push_back(sent);
     }
+    std::vector<glm::vec3> radiance;
+    for (std::size_t j = 0; j < rows_.sending_patches.size(); ++j) {
+      glm::vec3 sum(0.0f);
+      for (std::size_t k = 0; k < kPatchPoints; ++k) {
+        const PointRow& point = rows_.points[rows_.spheres.size() * kDirections + j * kPatchPoints + k];
+        sum +=
+            at(point.position, point.normal, blocking, visibility).direct / 3.14159265f / float(kPatchPoints);
+      }
+      radiance.push_back(sum * rows_.sending_patches[j].albedo);
+    }
+    radiance_ = radiance;
   }
   /// As long as spheres have not turned, else what the kernel's buffer has is to be held against turned ones.
   const std::vector<sh::ShRgb>& sent() const { return sent_; }
@@ -55,9 +67,11 @@ class Twin {
     sent_[sphere] = sh::rotate(world_from_shape, sent_[sphere]);
   }
 
-  TwinLight at(const glm::vec3& p, const glm::vec3& n, int blocking, bool difference) const {
+  TwinLight at(const glm::vec3& p, const glm::vec3& n, int blocking, int visibility) const {
     TwinLight light;
-    light.direct = through(all(p, n), n);
+    sh::Sh logs = all(p, n);
+    addPatches(p, n, logs, light.indirect);
+    light.direct = through(logs, n);
     for (std::size_t i = 0; i < rows_.spheres.size(); ++i) {
       const spheres::SeenSphere seen = see(p, n, i);
       if (!(seen.sin_half_angle > 0.0f)) continue;
@@ -67,12 +81,15 @@ class Twin {
       }
       const sh::Sh cosine = sh::rotateZonal(sh::clampedCosine(4), n);
       float share = 0.0f;
-      if (difference) {
+      const sh::Sh disc = sh::disc(4, seen.direction, std::asin(seen.sin_half_angle));
+      if (visibility == kMean) {
+        const float mean = sh::dot(before, disc) / (disc[0] * sh::zonalFactor(0));
+        share = std::exp(std::min(0.0f, mean)) * sh::dot(disc, cosine);
+      } else if (visibility == kDifference) {
         sh::Sh behind = before;
         behind += logOf(p, n, i);
         share = sh::dot(sh::expQuadratic(before), cosine) - sh::dot(sh::expQuadratic(behind), cosine);
       } else {
-        const sh::Sh disc = sh::disc(4, seen.direction, std::asin(seen.sin_half_angle));
         share = sh::dot(sh::product(sh::expQuadratic(before), disc), cosine);
       }
       if (i < sent_.size()) light.indirect += std::max(0.0f, share) * average(sent_[i], seen);
@@ -85,9 +102,56 @@ class Twin {
   spheres::SeenSphere see(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
     return spheres::seenSphere(p, n, rows_.spheres[i].center, rows_.spheres[i].radius);
   }
+
+  /// Corner by corner, as Lambert has it, in double precision.
+  static glm::vec3 patchVector(const PatchRow& row, const glm::vec3& p) {
+    const glm::dvec3 c = glm::dvec3(row.center) - glm::dvec3(p), u(row.half_u), v(row.half_v);
+    const glm::dvec3 corners[4] = {c - u - v, c + u - v, c + u + v, c - u + v};
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec3 a = glm::normalize(corners[i]), b = glm::normalize(corners[(i + 1) % 4]);
+      const double angle = std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+      if (angle > 1e-6) sum += 0.5 * angle * glm::normalize(glm::cross(a, b));
+    }
+    const bool above = glm::dot(c, glm::dvec3(row.normal)) <= 0.0;
+    return glm::vec3((glm::dot(sum, glm::dvec3(row.normal)) > 0.0) == above ? -sum : sum);
+  }
+  void addPatches(const glm::vec3& p, const glm::vec3& n, sh::Sh& logs, glm::vec3& sent) const {
+    const sh::Sh seen_through = sh::expQuadratic(logs);
+    for (std::size_t j = 0; j < rows_.sending_patches.size(); ++j) {
+      const PatchRow& row = rows_.sending_patches[j];
+      const glm::vec3 toward = patchVector(row, p);
+      const float size = glm::length(toward);
+      if (!(glm::dot(p - row.center, row.normal) > 0.0f) || size < 1e-9f) continue;
+      const sh::Sh disc =
+          sh::disc(4, toward / size, std::asin(std::sqrt(std::min(1.0f, size / 3.14159265f))));
+      const float open = sh::dot(disc, seen_through) / (disc[0] * sh::zonalFactor(0));
+      if (j < radiance_.size())
+        sent += radiance_[j] * std::max(0.0f, glm::dot(toward, n)) * std::clamp(open, 0.0f, 1.0f);
+    }
+    for (const PatchRow& row : rows_.blocking_patches) {
+      const glm::vec3 toward = patchVector(row, p);
+      const float size = glm::length(toward), height = glm::dot(p - row.center, row.normal);
+      if (size < 1e-9f) continue;
+      const float behind =
+          glm::clamp((-height / (0.1f * glm::length(row.half_u + row.half_v)) - 0.2f) / 0.8f, 0.0f, 1.0f);
+      const float there = height >= 0.0f ? 1.0f : behind * behind * (3.0f - 2.0f * behind);
+      const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
+                                                           std::sqrt(std::min(1.0f, size / 3.14159265f)));
+      const sh::Sh y = sh::evaluate(4, seen.direction);
+      const glm::vec4 weights = there * logFitted(logs_, seen.sin_half_angle);
+      for (int l = 0; l < 4; ++l) {
+        for (int c = l * l; c < (l + 1) * (l + 1); ++c) logs[c] += weights[l] * y[c];
+      }
+    }
+  }
   sh::Sh logOf(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
     const spheres::SeenSphere seen = see(p, n, i);
-    sh::Sh log = sh::rotateZonal(logs_.at(seen.sin_half_angle), seen.direction);
+    sh::Sh log = sh::evaluate(4, seen.direction);
+    const glm::vec4 weights = logFitted(logs_, seen.sin_half_angle);
+    for (int l = 0; l < 4; ++l) {
+      for (int c = l * l; c < (l + 1) * (l + 1); ++c) log[c] *= weights[l];
+    }
     log *= rows_.spheres[i].blocks;
     return log;
   }
@@ -113,9 +177,7 @@ class Twin {
                   glm::distance(p, rows_.objects[a.object].center), a.object);
   }
   glm::vec3 average(const sh::ShRgb& sent, const spheres::SeenSphere& seen) const {
-    const float at = sh::logBlockerCoordinate(seen.sin_half_angle) * float(kLogEntries - 1);
-    const auto below = std::min(std::size_t(at), std::size_t(kLogEntries - 2));
-    const glm::vec4 w = glm::mix(averages_[below], averages_[below + 1], at - float(below));
+    const glm::vec4 w = averageFitted(averages_, seen.sin_half_angle);
     const sh::Sh y = sh::evaluate(4, -seen.direction);
     glm::vec3 sum(0.0f);
     for (int l = 0; l < 4; ++l) {
@@ -126,9 +188,10 @@ class Twin {
 
   Rows rows_;
   sh::ShRgb light_;
-  sh::LogBlockerTable logs_;
-  std::vector<glm::vec4> averages_;
+  LogFit logs_;
+  Fit averages_;
   std::vector<sh::ShRgb> sent_, glow_;
+  std::vector<glm::vec3> radiance_;
 };
 
 }  // namespace gloam::spherical_lights

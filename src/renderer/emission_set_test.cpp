@@ -1,0 +1,93 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "renderer/emission_set.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/builtin_shapes.h"
+#include "scene/scene_builder.h"
+
+namespace gloam {
+namespace {
+
+Scene ballOverGround() {
+  SceneBuilder builder("ball");
+  builder.place("ball", shapes::icosphere(1.0f, 8), builder.diffuse("red", {0.8f, 0.1f, 0.1f}));
+  builder.place("ground", shapes::ground(20, 10, 4, 4), builder.diffuse("grey", glm::vec3(0.5f)));
+  return builder.finish();
+}
+
+SceneSpheres spheresOf(const Scene& scene) {
+  SceneSpheres spheres;
+  spheres.sets.resize(2);
+  for (std::size_t s = 0; s < 2; ++s) {
+    spheres.sets[s].meshes = scene.nodes[s].meshes;
+    spheres.sets[s].nodes = {int(s)};
+  }
+  spheres.sets[0].spheres = {{{-0.2f, 0, 0}, 1.1f}, {{0.2f, 0, 0}, 1.1f}};
+  spheres.sets[1].receive_only = "flat";
+  return spheres;
+}
+
+TEST(EmissionSet, SamplesGoWithTheirObject) {
+  Scene scene = ballOverGround();
+  const SceneSpheres spheres = spheresOf(scene);
+  const SceneEmission emission = sampleEmission(scene, spheres);
+  const EmissionSet set(scene, spheres, emission, {{1.0f, 1.0f}, {}});
+  const frame::Emission rest = set.posed(pose(scene, 0.0f), poseSpheres(spheres, scene, pose(scene, 0.0f)));
+  // Moved, turned, twice as large.
+  scene.nodes[0].translation = {3, 4, 5}, scene.nodes[0].scale = glm::vec3(2.0f);
+  scene.nodes[0].rotation = glm::angleAxis(1.2f, glm::normalize(glm::vec3(1, 2, 3)));
+  const PosedScene posed = pose(scene, 0.0f);
+  const frame::Emission now = set.posed(posed, poseSpheres(spheres, scene, posed));
+  ASSERT_EQ(now.points.size(), 2u * kEmissionDirections);
+  const glm::mat3 turn = glm::mat3_cast(scene.nodes[0].rotation);
+  for (std::size_t i = 0; i < now.points.size(); ++i) {
+    ASSERT_EQ(now.points[i].sends, rest.points[i].sends);
+    if (now.points[i].sends == 0.0f) continue;
+    ASSERT_LT(
+        glm::distance(now.points[i].position, glm::vec3(3, 4, 5) + 2.0f * (turn * rest.points[i].position)),
+        1e-4f);
+    ASSERT_LT(glm::distance(now.points[i].normal, turn * rest.points[i].normal), 1e-4f);
+  }
+  EXPECT_LT(glm::distance(now.proxies[1].world_from_shape[0], turn[0]), 1e-5f);
+  EXPECT_EQ(now.meets[0], 3u);  // both, and itself
+  EXPECT_EQ(now.proxies[1].first, 0);
+  EXPECT_EQ(now.proxies[1].count, 2);
+}
+
+TEST(EmissionSet, GroundBecomesRectanglesOfItsArea) {
+  const Scene scene = ballOverGround();
+  const SceneSpheres spheres = spheresOf(scene);
+  const EmissionSet set(scene, spheres, sampleEmission(scene, spheres), {{1.0f, 1.0f}, {}});
+  const PosedScene posed = pose(scene, 0.0f);
+  const frame::Emission emission = set.posed(posed, poseSpheres(spheres, scene, posed));
+  for (const std::vector<frame::Patch>* patches : {&emission.sending_patches, &emission.blocking_patches}) {
+    ASSERT_FALSE(patches->empty());
+    float area = 0.0f;
+    for (const frame::Patch& patch : *patches) {
+      area += 4.0f * glm::length(glm::cross(patch.half_u, patch.half_v));
+      EXPECT_GT(patch.normal.y, 0.999f);
+      EXPECT_NEAR(patch.center.y, 0.0f, 1e-4f);
+      EXPECT_NEAR(patch.albedo.x, 0.5f, 1e-3f);
+    }
+    EXPECT_NEAR(area, 200.0f, 4.0f);
+  }
+  EXPECT_GT(emission.sending_patches.size(), 80u);
+  EXPECT_LE(emission.blocking_patches.size(), 12u);
+}
+
+TEST(EmissionSet, EmissionOfOthersIsRefused) {
+  const Scene scene = ballOverGround();
+  const SceneSpheres spheres = spheresOf(scene);
+  SceneEmission emission = sampleEmission(scene, spheres);
+  for (EmissionSample& sample : emission.sets[0].spheres[0].samples) sample.triangle = 1u << 30;
+  EXPECT_THROW(EmissionSet(scene, spheres, emission, {{1.0f, 1.0f}, {}}), Error);
+  emission.sets[0].spheres.pop_back();
+  EXPECT_THROW(EmissionSet(scene, spheres, emission, {{1.0f, 1.0f}, {}}), Error);
+}
+
+}  // namespace
+}  // namespace gloam

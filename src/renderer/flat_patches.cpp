@@ -1,0 +1,173 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Surface points, spread by area, go into boxes of one size by where they lie and which of six ways they face; each box becomes the
+// rectangle that bounds its points, scaled to their area.
+#include "renderer/flat_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "scene/transforms.h"
+#include "trace/surface.h"
+
+namespace gloam {
+
+namespace {
+
+constexpr int kPoints = 20000;         // of all things together
+constexpr float kLeastFilled = 0.02f;  // of a box's side squared
+
+struct SurfacePoint {
+  glm::vec3 place, normal, albedo;
+  float area;
+};
+
+/// Of one mesh in the world; the same additive recurrence within each stratum of the running area.
+std::vector<SurfacePoint> pointsOf(const Scene& scene, const Instance& instance, double area_each) {
+  const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+  std::vector<SurfacePoint> points;
+  double running = 0.0, next = 0.5 * area_each;
+  std::uint32_t count = 0;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    glm::vec3 p[3];
+    for (std::size_t c = 0; c < 3; ++c)
+      p[c] = glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[mesh.indices[3 * t + c]], 1.0f));
+    const glm::vec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const float size = glm::length(across);
+    if (!(size > 0.0f)) continue;
+    running += 0.5 * double(size);
+    for (; next < running; next += area_each) {
+      ++count;
+      auto u = float(std::fmod(0.7548776662466927 * double(count), 1.0));
+      auto v = float(std::fmod(0.5698402909980532 * double(count), 1.0));
+      if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
+      const float mirrored = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f ? -1.0f : 1.0f;
+      points.push_back({(1.0f - u - v) * p[0] + u * p[1] + v * p[2], mirrored / size * across,
+                        trace::diffuseAlbedo(scene, mesh, {int(t), u, v}), float(area_each)});
+    }
+  }
+  return points;
+}
+
+double areaOf(const Mesh& mesh, const glm::mat4& world_from_object) {
+  double area = 0.0;
+  const glm::mat3 m(world_from_object);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const glm::vec3 a = m * mesh.positions[mesh.indices[i]], b = m * mesh.positions[mesh.indices[i + 1]],
+                    c = m * mesh.positions[mesh.indices[i + 2]];
+    area += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
+  }
+  return area;
+}
+
+/// Points of one box.
+struct Box {
+  glm::vec3 place{0.0f}, normal{0.0f}, albedo{0.0f};
+  glm::vec2 low{INFINITY}, high{-INFINITY};
+  float depth = 0.0f, area = 0.0f;
+};
+
+std::vector<frame::Patch> patchesOf(const std::vector<SurfacePoint>& points, const glm::mat3& axes,
+                                    float side) {
+  std::map<std::tuple<int, int, int, int>, Box> boxes;
+  const glm::mat3 to_own = glm::transpose(axes);
+  for (const SurfacePoint& point : points) {
+    const glm::vec3 q = to_own * point.place, m = to_own * point.normal, size = glm::abs(m);
+    const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int u = (w + 1) % 3, v = (w + 2) % 3;
+    const auto cell = [&](float x) { return int(std::floor(std::clamp(x / side + 0.37f, -1e6f, 1e6f))); };
+    Box& box = boxes[{2 * w + (m[w] > 0.0f ? 1 : 0), cell(q[u]), cell(q[v]), cell(q[w])}];
+    box.low = glm::min(box.low, {q[u], q[v]}), box.high = glm::max(box.high, {q[u], q[v]});
+    box.depth += point.area * q[w], box.area += point.area;
+    box.normal += point.area * point.normal, box.albedo += point.area * point.albedo;
+  }
+  std::vector<frame::Patch> patches;
+  for (const auto& [key, box] : boxes) {
+    if (box.area < kLeastFilled * side * side || !(glm::length(box.normal) > 0.0f)) continue;
+    const int w = std::get<0>(key) / 2, u = (w + 1) % 3, v = (w + 2) % 3;
+    const glm::vec2 middle = 0.5f * (box.low + box.high);
+    const glm::vec2 half = glm::max(0.5f * (box.high - box.low), glm::vec2(1e-3f * side));
+    frame::Patch patch;
+    patch.normal = glm::normalize(box.normal);
+    patch.center = middle.x * axes[u] + middle.y * axes[v] + box.depth / box.area * axes[w];
+    const glm::vec3 along = glm::normalize(axes[u] - glm::dot(axes[u], patch.normal) * patch.normal);
+    const float scale = std::sqrt(box.area / (4.0f * half.x * half.y));
+    patch.half_u = scale * half.x * along;
+    patch.half_v = scale * half.y * glm::cross(patch.normal, along);
+    patch.albedo = box.albedo / box.area;
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+frame::Patch moved(const frame::Patch& patch, const glm::mat4& matrix) {
+  const glm::mat3 m(matrix);
+  frame::Patch result = patch;
+  result.center = glm::vec3(matrix * glm::vec4(patch.center, 1.0f));
+  result.half_u = m * patch.half_u, result.half_v = m * patch.half_v;
+  const glm::vec3 normal = normalTransform(m) * patch.normal;
+  if (glm::length(normal) > 0.0f) result.normal = glm::normalize(normal);
+  return result;
+}
+
+}  // namespace
+
+FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers) {
+  std::vector<bool> casts(scene.nodes.size(), false);
+  for (const SphereSet& set : spheres.sets) {
+    for (const int node : set.nodes)
+      casts.at(std::size_t(node)) = casts[std::size_t(node)] || !set.spheres.empty();
+  }
+  const PosedScene posed = gloam::pose(scene, 0.0f);
+  std::vector<const Instance*> instances;
+  double area = 0.0;
+  std::map<std::pair<int, int>, int> copies;
+  for (const Instance& instance : posed.instances) {
+    const int copy = copies[{instance.node, instance.mesh}]++;
+    const double own = instance.deformed() || casts[std::size_t(instance.node)]
+                           ? 0.0
+                           : areaOf(scene.meshes[std::size_t(instance.mesh)], instance.world_from_object);
+    if (!(own > 0.0) || !std::isfinite(own)) continue;
+    area += own;
+    instances.push_back(&instance);
+    things_.push_back({.node = instance.node, .mesh = instance.mesh, .copy = copy});
+  }
+  if (instances.empty()) return;
+  std::vector<std::vector<SurfacePoint>> points;
+  for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kPoints));
+  const auto fill = [&](int most, std::vector<frame::Patch> Placed::*list) {
+    for (float side = std::sqrt(float(area) / float(most));; side *= 1.15f) {
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < instances.size(); ++i) {
+        const glm::mat4& matrix = instances[i]->world_from_object;
+        std::vector<frame::Patch>& patches = things_[i].*list;
+        patches = patchesOf(points[i], rotationFactor(matrix), side);
+        for (frame::Patch& patch : patches) patch = moved(patch, glm::inverse(matrix));
+        count += patches.size();
+      }
+      if (int(count) <= std::max(most, 6 * int(instances.size())) || side > 1e6f * std::sqrt(float(area)))
+        return;
+    }
+  };
+  fill(senders, &Placed::senders);
+  fill(blockers, &Placed::blockers);
+}
+
+void FlatPatches::pose(const PosedScene& posed, frame::Emission& emission) const {
+  for (const Placed& thing : things_) {
+    int copy = 0;
+    for (const Instance& instance : posed.instances) {
+      if (instance.node != thing.node || instance.mesh != thing.mesh || copy++ != thing.copy) continue;
+      for (const frame::Patch& patch : thing.senders)
+        emission.sending_patches.push_back(moved(patch, instance.world_from_object));
+      for (const frame::Patch& patch : thing.blockers)
+        emission.blocking_patches.push_back(moved(patch, instance.world_from_object));
+      break;
+    }
+  }
+}
+
+}  // namespace gloam

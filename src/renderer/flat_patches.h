@@ -1,0 +1,29 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// What only receives (ground, walls, rooms) as rectangles: a few large ones that stand in the light, and more that send it.
+#pragma once
+
+#include <gloam/spheres.h>
+
+#include "frame/emission.h"
+
+namespace gloam {
+
+class FlatPatches {
+ public:
+  FlatPatches() = default;
+  /// At most that many rectangles of each kind, over all rigid things without spheres, as large as they stand at time 0.
+  FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers);
+  /// Adds them where they are now.
+  void pose(const PosedScene& posed, frame::Emission& emission) const;
+
+ private:
+  struct Placed {
+    int node = kNone, mesh = kNone, copy = 0;
+    std::vector<frame::Patch> senders, blockers;  // in the object
+  };
+  std::vector<Placed> things_;
+};
+
+}  // namespace gloam

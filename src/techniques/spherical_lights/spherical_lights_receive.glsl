@@ -1,0 +1,92 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// All light at one receiver, objects blocking objects, visibility of a sphere as exp of the mean log over its disc: no exponential of a
+// function but the last, and every loop runs over the same rows for all receivers, which is what software drivers are quick at. What
+// stands before an object is summed from kept sums of those that are nearer, so nothing is sorted. Includers declare the constants
+// has_indirect and glows, the buffers spheres, objects, sent, glow, apart and those of patches, the uniform block light, and push push.params.
+#ifndef GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
+#define GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
+#include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+#include "techniques/spherical_lights/spherical_lights_patches.glsl"
+#include "techniques/spherical_lights/spherical_lights_radiance.glsl"
+#include "techniques/spherical_lights/spherical_lights_shade.glsl"
+
+/// Mean over a disc of the logs of those of its object that stand before it and do not meet it; `bands`: of a mean over the disc.
+float logWithin(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {
+  float sum = 0.0;
+  vec3 to_i = spheres.at[i].center - position;
+  float own = dot(to_i, to_i);
+  uint first = spheres.at[i].first_apart, end = first + spheres.at[i].apart;
+  for (uint k = first; k < end; ++k) {
+    uint j = apart.at[k];
+    vec3 to_j = spheres.at[j].center - position;
+    float far = dot(to_j, to_j);
+    bool nearer = far < own || (far == own && j < i);
+    SeenSphere seen = seenSphere(position, normal, spheres.at[j].center, spheres.at[j].radius);
+    float log_there = dot(logWeights(seen.sin_half_angle), bands * zonalAt(dot(seen.direction, direction)));
+    sum += nearer ? log_there : 0.0;
+  }
+  return sum;
+}
+
+Gathered receive(vec3 position, vec3 normal) {
+  Gathered got = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+  float kept[16u * kMostKept], far[kMostKept];
+  const bool send = has_indirect || glows;
+  Sh4 all = kNothing;
+  for (uint o = 0u; o < push.params.objects; ++o) {
+    Sh4 own = kNothing;
+    uint first = objects.at[o].first, end = first + objects.at[o].count;
+    for (uint i = first; i < end; ++i) own = plus(own, logOf(position, normal, i));
+    all = plus(all, own);
+    if (send) {
+      float f[16] = GLOAM_ARRAY_OF(own);
+      for (uint c = 0u; c < 16u; ++c) kept[16u * o + c] = f[c];
+      vec3 d = objects.at[o].center - position;
+      far[o] = dot(d, d);
+    }
+  }
+  for (uint o = 0u; o < (send ? push.params.objects : 0u); ++o) {
+    Sh4 before = kNothing;
+    for (uint q = 0u; q < push.params.objects; ++q) {
+      float stands = far[q] < far[o] || (far[q] == far[o] && q < o) ? 1.0 : 0.0;
+      float f[16];
+      for (uint c = 0u; c < 16u; ++c) f[c] = kept[16u * q + c] * stands;
+      before = plus(before, GLOAM_SH4_OF(f));
+    }
+    uint first = objects.at[o].first, end = first + objects.at[o].count;
+    for (uint i = first; i < end; ++i) {
+      SeenSphere seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      vec4 disc = discWeights(seen.sin_half_angle), bands = disc / max(disc.x, 1e-12);
+      Sh4 y = basisAt(seen.direction);
+      float log_before = dotOf(scaled(y, bands), before) + logWithin(position, normal, i, seen.direction, bands);
+      // Of the disc alone, against the clamped cosine.
+      float open = max(0.0, dot(disc * vec4(kShCosine0, kShCosine1, kShCosine2, 0.0), zonalAt(dot(seen.direction, normal))));
+      float share = open * exp(min(log_before, 0.0));
+      Sh4 f = averageAt(seen.sin_half_angle, y);
+      if (has_indirect) {
+        vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
+        got.indirect += radiance * share;
+        got.unblocked += radiance * open;
+      }
+      if (glows) got.direct += GLOAM_RADIANCE(glow.at[i]) * share;
+    }
+  }
+  // What spheres leave, through which patches are seen; then with patches before the environment, too.
+  for (int t = has_indirect && push.params.sending_patches > 0u ? 0 : 1; t < 2; ++t) {
+    Sh4 f = all;
+    if (t == 1) f = plus(all, logOfPatches(position, normal));
+    float e[16];
+    shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
+    if (t == 0) {
+      got.indirect += lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+    } else {
+      got.direct += irradianceThrough(e, normal);
+      got.visibility = e[0] / kShZonal0;
+    }
+  }
+  return got;
+}
+
+#endif
