@@ -56,8 +56,8 @@ FrameTime timeOf(const std::vector<PassTime>& passes) {
     const bool own = pass.name.starts_with("proxies.");
     if (own || pass.name.starts_with("frame.receivers") || pass.name == "frame.upsample")
       time.light += pass.milliseconds;
-    if (own && pass.name != "proxies.upsample" && pass.name != "proxies.repair" &&
-        pass.name != "proxies.repairs")
+    if (own && pass.name != "proxies.upsample" && pass.name != "proxies.extend" &&
+        pass.name != "proxies.misfits" && !pass.name.starts_with("proxies.repair"))
       time.receivers_light += pass.milliseconds;
   }
   return time;

@@ -77,9 +77,11 @@ const std::vector<Option>& options() {
        .default_value = true,
        .help = "scale light of proxies that overlap by the solid angle that they fill together"},
       {.name = "window",
-       .default_value = std::string("auto"),
+       .default_value = std::string("none"),
        .choices = {"none", "hann", "lanczos", "auto"},
-       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"}};
+       .help =
+           "damping of the light against ringing; auto: as little as keeps light non-negative, which takes "
+           "most of a sun's shadow"}};
   return options;
 }
 
@@ -120,7 +122,16 @@ Received recordReceivers(const Step& step, const Sums& sums) {
   return received;
 }
 
-/// Receivers' fields brought to all pixels: "proxies.upsample", and pixels that none fits from scratch: "proxies.repair".
+/// A list of squares of pixels, empty.
+gpu::BufferRef emptyList(const Step& step, const std::string& name, std::uint32_t capacity) {
+  const auto list =
+      step.graph.create(name, gpu::BufferDesc{.bytes = sizeof(RepairList) + 4 * std::size_t(capacity)});
+  step.graph.clear(name, gpu::BufferRef(list).slice(0, sizeof(RepairList)), 1);
+  return list;
+}
+
+/// Receivers' fields brought to all pixels: "proxies.upsample"; beside silhouettes from more receivers, "proxies.extend"; and
+/// pixels that none fits from scratch: "proxies.repair".
 Received recordUpsampling(const Step& step, const Received& coarse) {
   const frame::GBuffer& gbuffer = step.inputs.gbuffer;
   const auto full = [&](const char* name) {
@@ -128,30 +139,48 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
         name, gpu::ImageDesc{.format = kHalves, .width = gbuffer.width, .height = gbuffer.height});
   };
   const Received received{{}, {}, full("proxies.direct_full"), full("proxies.indirect_full")};
-  const std::uint32_t capacity = std::min(
-      std::uint32_t(gbuffer.width) * std::uint32_t(gbuffer.height) / 2 + 1, kRepairGroup * kMostGroups);
   // Of pixels between the same four receivers.
   const auto blocks = [divisor = step.level.divisor](int pixels) {
     return (pixels + divisor / 2 + divisor - 1) / divisor;
   };
-  const auto repairs = step.graph.create(
-      "proxies.repairs", gpu::BufferDesc{.bytes = sizeof(RepairList) + 4 * std::size_t(capacity)});
-  step.graph.clear("proxies.repairs", gpu::BufferRef(repairs).slice(0, sizeof(RepairList)), 1);
+  const int columns = blocks(gbuffer.width), rows = blocks(gbuffer.height);
+  const auto most = kRepairGroup * kMostGroups;
+  const std::uint32_t squares = std::uint32_t(columns) * std::uint32_t(rows) *
+                                std::uint32_t(step.level.divisor * step.level.divisor / 4);
+  const std::uint32_t capacity = std::min(squares, most), repair_capacity = std::min(2 * squares, most);
+  const gpu::BufferRef misfits = emptyList(step, "proxies.misfits", capacity),
+                       repairs = emptyList(step, "proxies.repairs", repair_capacity);
+  const gpu::ImageRef field = step.whole_field ? coarse.field : coarse.planes;
   step.graph.compute("proxies.upsample", proxies_upsample_spv)
       .specialize("whole_field", step.whole_field)
       .read("frame_view", step.inputs.view)
       .read("depth", gbuffer.depth)
       .read("normals", gbuffer.normals)
       .read("receiver_normal", step.level.normal_depth)
-      .read("field", step.whole_field ? coarse.field : coarse.planes)
+      .read("field", field)
       .read("indirect", coarse.indirect)
       .read("light", step.light)
-      .readWrite("repairs", repairs)
+      .readWrite("misfits", misfits)
       .write("direct_full", received.direct)
       .write("indirect_full", received.indirect)
       .push(UpsampleParams{std::uint32_t(step.level.divisor), capacity})
-      .dispatchOver(blocks(gbuffer.width), blocks(gbuffer.height));
-  const RepairTiles tiles = recordRepairTiles(step, repairs, capacity);
+      .dispatchOver(columns, rows);
+  step.graph.compute("proxies.extend", proxies_extend_spv)
+      .specialize("whole_field", step.whole_field)
+      .read("frame_view", step.inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("normals", gbuffer.normals)
+      .read("receiver_normal", step.level.normal_depth)
+      .read("field", field)
+      .read("indirect", coarse.indirect)
+      .read("light", step.light)
+      .read("misfits", misfits)
+      .readWrite("repairs", repairs)
+      .readWrite("direct_full", received.direct)
+      .readWrite("indirect_full", received.indirect)
+      .push(ExtendParams{std::uint32_t(step.level.divisor), capacity, repair_capacity})
+      .dispatchIndirect(misfits);
+  const RepairTiles tiles = recordRepairTiles(step, repairs, repair_capacity);
   step.graph.compute("proxies.repair", proxies_repair_spv)
       .specialize("indirect_kind", step.indirect)
       .specialize("exponential", step.exponential)
@@ -168,7 +197,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("light", step.light)
       .readWrite("direct_full", received.direct)
       .readWrite("indirect_full", received.indirect)
-      .push(RepairParams{step.params, tiles.columns, capacity})
+      .push(RepairParams{step.params, tiles.columns, repair_capacity, std::uint32_t(step.level.divisor)})
       .dispatchIndirect(repairs);
   return received;
 }

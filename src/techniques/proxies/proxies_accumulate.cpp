@@ -59,7 +59,7 @@ RepairTiles recordRepairTiles(const Step& step, gpu::BufferRef repairs, std::uin
       .read("depth", gbuffer.depth)
       .read("repairs", repairs)
       .readWrite("bounds", bounds)
-      .push(RepairBoundsParams{columns, capacity})
+      .push(RepairBoundsParams{columns, capacity, std::uint32_t(step.level.divisor)})
       .dispatchIndirect(repairs);
   return {recordBits(step, "proxies.repair_tiles", bounds, tiles, true), columns};
 }

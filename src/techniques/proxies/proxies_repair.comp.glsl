@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-8, the fix-up: pixels that no coarse receiver fits (silhouettes, thin things) are computed from scratch, with the
-// proxies that reach their tile.
+// proxies that reach their tile; those of a square of 2 x 2 on one surface at once, each at its own normal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -28,8 +28,9 @@ layout(scalar, set = 0, binding = 10) readonly buffer AloneTable { float at[]; }
 layout(scalar, set = 0, binding = 7) uniform LightBlock { ProxyLight row; } light;
 layout(set = 0, binding = 8, rgba16f) uniform image2D direct_full;  // A: how much of it is kept
 layout(set = 0, binding = 9, rgba16f) uniform image2D indirect_full;
-layout(scalar, push_constant) uniform Push { AccumulateParams params; uint columns; uint capacity; } push;
+layout(scalar, push_constant) uniform Push { AccumulateParams params; uint columns; uint capacity; uint divisor; } push;
 
+#include "techniques/proxies/proxies_quads.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 #include "techniques/proxies/proxies_tile_list.glsl"
 
@@ -37,18 +38,22 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= min(repairs.list.count_and_one - 1u, push.capacity)) return;
   uint packed = repairs.at[i];
-  ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16);
-  Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
-  vec3 position = ray.origin + ray.direction * eyeDepth(frame_view.view, texelFetch(depth, pixel, 0).x);
-  vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
-  uvec2 tile = uvec2(pixel) / kRepairTile;
-  Gathered sum = gatherTile(position, normal, (tile.y * push.columns + tile.x) * push.params.words);
+  ivec2 first = firstPixel(packed, push.divisor);
+  Middle middle = middleOf(packed, first);
+  uint tile = tileOf(first, push.columns);
+  Gathered sum = gatherTile(middle.position, middle.normal, tile * push.params.words);
   float o[16];
   expOfLog(exponential, sum.log0, sum.log1, sum.log2, sum.log3, o);
   float share = normalise ? overlapShare(o[0], sum.sent.w) : 1.0;
-  vec4 before = imageLoad(direct_full, pixel);
-  vec3 lit = mix(irradianceThrough(o, normal), before.rgb, before.a);
-  vec3 sent = mix(max(sum.sent.rgb, vec3(0.0)) * share, imageLoad(indirect_full, pixel).rgb, before.a);
-  imageStore(direct_full, pixel, vec4(lit, 1.0));
-  imageStore(indirect_full, pixel, vec4(sent, 1.0));
+  vec3 terms[9];
+  shadeTerms(o, terms);
+  vec3 sent = max(sum.sent.rgb, vec3(0.0)) * share;
+  for (uint k = 0u; k < 4u; ++k) {
+    if ((packed >> k & 1u) == 0u) continue;
+    ivec2 pixel = pixelOf(first, k);
+    vec4 before = imageLoad(direct_full, pixel);
+    vec3 lit = max(irradianceOf(terms, shadingNormal(texelFetch(normals, pixel, 0).xy)), vec3(0.0));
+    imageStore(direct_full, pixel, vec4(mix(lit, before.rgb, before.a), 1.0));
+    imageStore(indirect_full, pixel, vec4(mix(sent, imageLoad(indirect_full, pixel).rgb, before.a), 1.0));
+  }
 }

@@ -7,15 +7,19 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
+#include "frame/gbuffer.glsl"
 #include "frame/view.glsl"
 #include "techniques/proxies/proxies_shared.h"
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 4) uniform usampler2D normals;
 layout(scalar, set = 0, binding = 2) readonly buffer Repairs { RepairList list; uint at[]; } repairs;
 layout(scalar, set = 0, binding = 3) buffer Bounds { uint at[]; } bounds;
-layout(scalar, push_constant) uniform Push { uint columns; uint capacity; } push;
+layout(scalar, push_constant) uniform Push { uint columns; uint capacity; uint divisor; } push;
+
+#include "techniques/proxies/proxies_quads.glsl"
 
 uint ordered(float value) {
   uint word = floatBitsToUint(value);
@@ -25,10 +29,9 @@ uint ordered(float value) {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= min(repairs.list.count_and_one - 1u, push.capacity)) return;
-  uvec2 pixel = uvec2(repairs.at[i] & 0xffffu, repairs.at[i] >> 16);
-  Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
-  vec3 p = ray.origin + ray.direction * eyeDepth(frame_view.view, texelFetch(depth, ivec2(pixel), 0).x);
-  uint first = 6u * (pixel.y / kRepairTile * push.columns + pixel.x / kRepairTile);
+  ivec2 from = firstPixel(repairs.at[i], push.divisor);
+  vec3 p = middleOf(repairs.at[i], from).position;
+  uint first = 6u * tileOf(from, push.columns);
   atomicMax(bounds.at[first], ordered(p.x));
   atomicMax(bounds.at[first + 1u], ordered(p.y));
   atomicMax(bounds.at[first + 2u], ordered(p.z));

@@ -70,22 +70,30 @@ struct UpsampleParams {
   uint capacity;  // of the list
 };
 GLOAM_SHARED_SIZE(UpsampleParams, 8)
+struct ExtendParams {
+  uint divisor;
+  uint capacity;         // of the list that it reads
+  uint repair_capacity;  // of the list that it writes
+};
+GLOAM_SHARED_SIZE(ExtendParams, 12)
 
 /// Pixels that are computed from scratch share a list of proxies within a square of that many a side.
 GLOAM_SHARED_CONST uint kRepairTile = 32u;
 struct RepairBoundsParams {
   uint columns;   // of tiles
   uint capacity;  // of the list
+  uint divisor;
 };
-GLOAM_SHARED_SIZE(RepairBoundsParams, 8)
+GLOAM_SHARED_SIZE(RepairBoundsParams, 12)
 struct RepairParams {
   AccumulateParams params;
   uint columns;
   uint capacity;
+  uint divisor;
 };
-GLOAM_SHARED_SIZE(RepairParams, 28)
+GLOAM_SHARED_SIZE(RepairParams, 32)
 
-/// Pixels that a work group computes from scratch, and the head of their list: arguments of the dispatch, then how many there
+/// Squares of 2 x 2 pixels that a work group looks at, and the head of their list: arguments of the dispatch, then how many there
 /// are plus one (all four begin as 1).
 GLOAM_SHARED_CONST uint kRepairGroup = 64u;
 struct RepairList {

