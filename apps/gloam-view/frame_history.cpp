@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 namespace gloam::view {
 
 void FrameHistory::clear() {
@@ -15,11 +17,10 @@ void FrameHistory::clear() {
 // The first picture of a size compiles shaders and makes images: it tells nothing of those that follow.
 void FrameHistory::add(const Drawn& drawn) {
   const std::string of = fmt::format("{} {}x{} {}", drawn.technique, drawn.width, drawn.height, drawn.split);
-  if (of != of_) {
-    const bool first = of_.empty();
+  if (of != of_ || std::exchange(provisional_, false)) {
+    provisional_ = of != of_;  // shown until there is another
     clear();
     of_ = of;
-    if (!first) return;
   }
   samples_.push_back({drawn.left.frame_ms, drawn.left.passes});
   if (samples_.size() > kKept) samples_.pop_front();

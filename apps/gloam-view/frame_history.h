@@ -34,7 +34,8 @@ class FrameHistory {
     std::vector<PassTime> passes;
   };
   std::deque<Sample> samples_;
-  std::string of_;  ///< technique and size
+  std::string of_;            ///< technique and size
+  bool provisional_ = false;  ///< the one sample is the first of its kind
   std::vector<Row> rows_;
   double median_ms_ = 0.0, p95_ms_ = 0.0;
   cli::Json passes_ = cli::Json::array();

@@ -3,9 +3,11 @@
 //
 // What happens every frame of the window: results are taken, the next picture is asked for.
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include "session.h"
@@ -13,6 +15,14 @@
 
 namespace gloam::view {
 namespace {
+
+/// Of this program, where the system tells; else 0.
+std::size_t residentBytes() {
+  std::ifstream in("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  in >> all >> resident;
+  return resident * std::size_t(sysconf(_SC_PAGESIZE));
+}
 
 constexpr int kMostGrowths = 3;
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
@@ -169,6 +179,7 @@ cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
   json["input_to_picture"] = slowest_response_;
   json["last_switch_ms"] = switch_ms_;
   json["ui_objects"] = ui_objects;
+  json["resident_bytes"] = residentBytes();
   json["camera"] = {{"eye", cli::shortest(camera.eye())}, {"target", cli::shortest(camera.target())}};
   json["time_s"] = cli::shortest(state.time_s);
   json["exposure"] = cli::shortest(state.display.exposure_stops);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "show.h"
 #include "ui.h"
@@ -23,6 +24,8 @@ std::string shortName(const std::string& name) {
 }
 
 void openPopup(Session& session, UiState& ui) {
+  ImGui::SetNextWindowPos({ImGui::GetWindowPos().x - 8.0f * ui.scale, 12.0f * ui.scale}, ImGuiCond_Always,
+                          {1.0f, 0.0f});  // beside the panel
   if (!ImGui::BeginPopup("open")) return;
   dim("A file (or drop one on the window)");
   if (inputPath("##path", ui.path, 320.0f * ui.scale) && !ui.path.empty()) {
@@ -208,6 +211,9 @@ void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& 
   techniqueSection(session);
   lightSection(session);
   viewSection(session, ui);
+  static Split seen = Split::kNone;  // what is compared shows its numbers
+  if (std::exchange(seen, session.state.split) != session.state.split && session.state.split != Split::kNone)
+    ImGui::SetNextItemOpen(true);
   if (section("Compare", false)) compareSection(session);
   cameraSection(session);
   if (section("Move things", false)) objectSection(session, ui);

@@ -210,6 +210,16 @@ class ViewerTest(unittest.TestCase):
         self.assertEqual(names[0], names[1])
         self.assertLessEqual(after["input_to_picture"], 2)
 
+    def test_pictures_leave_no_memory_behind(self):
+        self.environment["GLOAM_VALIDATION"] = "0"  # the layer keeps books of its own
+        turn = [{"set": {"env_rotation": 10}}, {"wait": 2}, {"set": {"env_rotation": 20}}, {"wait": 2}]
+        self.script([{"wait": "idle"}, {"repeat": 15, "steps": turn}, {"wait": "idle"}, {"stats": "before.json"},
+                     {"repeat": 40, "steps": turn}, {"wait": "idle"}, {"stats": "after.json"}],
+                    BOX, "--size", "320x240", "--scale", "0.2")
+        before, after = self.stats("before.json"), self.stats("after.json")
+        self.assertGreater(after["pictures"], before["pictures"] + 50)
+        self.assertLess(after["resident_bytes"] - before["resident_bytes"], 3 << 20)
+
     # ---- comparison ------------------------------------------------------------------------------------------------------
 
     def test_reference_refines_and_measures(self):
