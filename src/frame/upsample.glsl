@@ -15,7 +15,7 @@ const float kDepthTolerance = 2e-3;
 const float kPoorFit = 0.05;
 /// Where pixels can be found otherwise: below the first sum that alone counts, from the second on these weights alone. Between,
 /// both are blended, so that nothing switches as edges go by.
-const float kScratchFit = 0.4, kGoodFit = 0.65;
+const float kScratchFit = 0.4, kGoodFit = 0.6;
 const float kLeastBilinear = 1e-3;
 
 /// A number that changes evenly over the picture of a plane: depth along the axis where rays are parallel, else its inverse. 0 for

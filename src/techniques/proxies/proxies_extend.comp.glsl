@@ -38,7 +38,7 @@ const float kStiffness = 0.03;
 /// What is trusted, and what no longer: the offset of the receivers' weighted middle (in receivers); the sum of weights without
 /// their signs, by which errors are enlarged; distance of values from their plane, relative to the value read; and, from the second
 /// to the first, weights of what fits.
-const vec2 kOffset = vec2(0.05, 0.2), kEnlarged = vec2(1.5, 2.2), kBent = vec2(0.005, 0.015), kWeight = vec2(1.0, 0.5);
+const vec2 kOffset = vec2(0.05, 0.2), kEnlarged = vec2(1.5, 2.2), kBent = vec2(0.006, 0.018), kWeight = vec2(0.8, 0.4);
 
 const float kFieldChanges = 3.0;  // light changes faster than the mean of visibility
 
