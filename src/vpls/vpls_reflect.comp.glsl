@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// One texel of a reflective shadow map (MS-1). Its flux: the lamp's power through the texel's solid angle (16 points of it
+// One texel of a reflective shadow map (MS-1). Its flux: the lamp's power through the texel's solid angle (some points of it
 // ask for the cone), times albedo, times what the shading normal makes of the surface's own cosine.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,6 @@
 
 /// Least cosine to the surface: what a texel at grazing incidence covers stays bounded.
 const float kLeastCosine = 0.02;
-const int kPoints = 4;  // a side
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -30,10 +29,11 @@ layout(scalar, push_constant) uniform Push { MapPlace place; } push;
 
 /// (solid angle of a texel, the same times the cone's factor).
 vec2 texelSolidAngles(FrameView view, vec2 texel) {
-  float area = length(view.step_x) * length(view.step_y) / float(kPoints * kPoints);
+  int points = push.place.size < 128 ? 4 : 2;  // a side
+  float area = length(view.step_x) * length(view.step_y) / float(points * points);
   vec2 sum = vec2(0.0);
-  for (int i = 0; i < kPoints * kPoints; ++i) {
-    vec2 at = texel + (vec2(i % kPoints, i / kPoints) + 0.5) / float(kPoints);
+  for (int i = 0; i < points * points; ++i) {
+    vec2 at = texel + (vec2(i % points, i / points) + 0.5) / float(points);
     vec3 way = pixelRay(view, at).direction;
     float squared = dot(way, way);
     float solid_angle = area / (squared * sqrt(squared));

@@ -33,8 +33,15 @@ const std::vector<Option>& options() {
        .help = "texels a side of a lamp's reflective shadow map"},
       {.name = "mode",
        .default_value = std::string("multiresolution"),
-       .choices = {"multiresolution", "full"},
-       .help = "where light is gathered: coarsely where nothing varies, or at every pixel"},
+       .choices = {"multiresolution", "full", "cutoff"},
+       .help = "where light is gathered: coarsely where nothing varies; at every pixel; or at pixels within "
+               "a radius of each light, "
+               "splat by splat"},
+      {.name = "radius",
+       .default_value = 1.0f,
+       .minimum = 1e-4,
+       .maximum = 1e6,
+       .help = "metres that a virtual light reaches; mode cutoff"},
       {.name = "bound",
        .default_value = std::string("area"),
        .choices = {"area", "disc", "none"},
@@ -45,15 +52,15 @@ const std::vector<Option>& options() {
        .default_value = std::string("off"),
        .choices = {"off", "rays"},
        .help = "whether what stands in the way hides virtual lights: rays on the host from every subsplat to "
-               "every light; not in "
-               "mode full"},
+               "every light; in mode "
+               "multiresolution"},
       {.name = "normal_threshold",
        .default_value = 0.2f,
        .minimum = 0.0,
        .maximum = 2.0,
        .help = "difference of a component of the normal from which on a texel is split; 0: all"},
       {.name = "depth_threshold",
-       .default_value = 0.1f,
+       .default_value = 0.03f,
        .minimum = 0.0,
        .maximum = 1000.0,
        .help = "difference of depth, in parts of it, from which on a texel is split; 0: all"},
@@ -127,6 +134,28 @@ gpu::ImageRef recordFull(gpu::FrameGraph& graph, const frame::FrameInputs& input
   return light;
 }
 
+/// The earlier splatting: rectangles blended one over the other.
+gpu::ImageRef recordCutoff(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const vpls::Vpls& vpls,
+                           int bound, float radius) {
+  const frame::ReceiverLevel& receivers = inputs.receivers.at(1);
+  const auto light =
+      graph.create("splatting.irradiance", gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                          .width = inputs.gbuffer.width,
+                                                          .height = inputs.gbuffer.height});
+  const std::array<float, 4> nothing = {0.0f, 0.0f, 0.0f, 0.0f};
+  auto& pass = graph.raster("splatting.cutoff", splatting_cutoff_vert_spv, splatting_cutoff_frag_spv)
+                   .state({.blend = gpu::Blend::kAdd})
+                   .specialize("bound_kind", bound)
+                   .read("frame_view", inputs.view)
+                   .read("vpls", vpls.rows)
+                   .read("receiver_position", receivers.position)
+                   .read("receiver_normal", receivers.normal_depth)
+                   .color("light", light, nothing)
+                   .push(radius);
+  pass.draw().vertices(6, vpls.capacity);
+  return light;
+}
+
 }  // namespace
 
 const TechniqueInfo& info() {
@@ -149,7 +178,9 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                settings.integer("resolution"));
   const std::string& visibility = settings.choice("visibility");
   gpu::ImageRef irradiance;
-  if (settings.choice("mode") == "full" || plan.coarsest == 0) {
+  if (settings.choice("mode") == "cutoff") {
+    irradiance = recordCutoff(graph, inputs, vpls, bound, settings.number("radius"));
+  } else if (settings.choice("mode") == "full" || plan.coarsest == 0) {
     irradiance = recordFull(graph, inputs, vpls, bound);
   } else {
     const Thresholds thresholds{settings.number("normal_threshold"), settings.number("depth_threshold")};
