@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace gloam::view {
 
@@ -16,22 +18,25 @@ class Resolution {
   float moving_ms = 90.0f;   ///< what a picture may take while something moves
   float still_ms = 1500.0f;  ///< what one may take that stands still
 
-  /// Of a picture that took that long: learns what a pixel costs. A part of the time, kBaseMs, is no pixel's.
-  void add(double pixels, double milliseconds) {
+  /// Of a picture that took that long: learns what a pixel of its kind (technique and what is shown) costs. A part of the time,
+  /// kBaseMs, is no pixel's.
+  void add(const std::string& kind, double pixels, double milliseconds) {
     if (pixels < 1.0) return;
     const double cost = std::max(milliseconds - kBaseMs, 0.1) / pixels;
-    cost_ = cost_ <= 0.0 ? cost : 0.5 * cost_ + 0.5 * cost;
+    const auto [known, fresh] = costs_.try_emplace(kind, cost);
+    if (!fresh) known->second = 0.5 * known->second + 0.5 * cost;
   }
   /// Whether a picture that stands still took so little that one of more pixels is worth its time.
   bool mayGrow(float scale_drawn, double milliseconds) const {
     return fixed <= 0.0f && scale_drawn < 0.97f && milliseconds < 0.4 * double(still_ms);
   }
-  void forget() { cost_ = 0.0; }
+  void forget() { costs_.clear(); }
   /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time.
-  float scale(double window_pixels, bool moving) const {
+  float scale(const std::string& kind, double window_pixels, bool moving) const {
     if (fixed > 0.0f) return fixed;
-    if (cost_ <= 0.0) return moving ? 0.5f : 0.71f;
-    const double affordable = std::max(double(moving ? moving_ms : still_ms) - kBaseMs, 5.0) / cost_;
+    const auto known = costs_.find(kind);
+    if (known == costs_.end()) return moving ? 0.35f : 0.71f;
+    const double affordable = std::max(double(moving ? moving_ms : still_ms) - kBaseMs, 5.0) / known->second;
     const double share = std::sqrt(affordable / std::max(window_pixels, 1.0));
     float best = kSteps[0];
     for (const float step : kSteps) {
@@ -43,7 +48,7 @@ class Resolution {
  private:
   static constexpr double kBaseMs = 8.0;
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
-  double cost_ = 0.0;  ///< milliseconds a pixel
+  std::map<std::string, double> costs_;  ///< milliseconds a pixel
 };
 
 }  // namespace gloam::view

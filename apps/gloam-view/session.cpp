@@ -1,26 +1,20 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What is asked for. session_update.cpp has what happens every frame, session_set.cpp names and values.
+// What is asked for. session_prepare.cpp bakes and fits, session_update.cpp has what happens every frame, session_set.cpp
+// names and values.
 #include "session.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "bake_run.h"
-#include "emission_run.h"
 #include "show.h"
-#include "spheres_run.h"
 
 namespace gloam::view {
 namespace {
 
 constexpr std::size_t kKeptMessages = 60;
-
-Pick pickOf(const TechniqueInfo& info) {
-  return {&info, Settings(info.options)};
-}
 
 std::string lowerExtension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -29,13 +23,6 @@ std::string lowerExtension(const std::string& path) {
 }
 
 }  // namespace
-
-bool isReady(const Pick& pick, const LoadedScene& scene, const Needs& needs) {
-  if (pick.info->needs_bake && !cli::carriesTransfer(scene.scene)) return false;
-  if (!pick.info->needs_spheres) return true;
-  if (pick.info->needs_emission && !needs.emission) return false;
-  return needs.spheres && needs.of == &scene && needs.sphere_count == pick.settings.integer("spheres");
-}
 
 Session::Session(const ViewerChoice& choice, std::function<void()> wake)
     : choice_(choice), jobs_(wake), worker_(choice.device, wake), tracer_(wake) {
@@ -264,95 +251,6 @@ void Session::clickAt(const glm::vec2& place) {
   click_ = place;
   state.layers = true;
   changed();
-}
-
-bool Session::waitsFor(Side side) const {
-  return state.scene && (side == kLeft || state.split == Split::kTechnique) &&
-         !isReady(wanted[side], *state.scene, state.needs);
-}
-
-/// Starts what the picked techniques lack: one thing after the other.
-void Session::prepare() {
-  if (!state.scene || preparing_) return;
-  takePicks();
-  for (const Side side : {kLeft, kRight}) {
-    if (!waitsFor(side)) continue;
-    const Pick& pick = wanted[side];
-    if (pick.info->needs_bake && !cli::carriesTransfer(state.scene->scene)) return startBake(pick);
-    if (pick.info->needs_spheres)
-      return startSpheres(pick.settings.integer("spheres"), pick.info->needs_emission);
-  }
-  if (cli::showsSpheres(state.show) && !state.needs.spheres) startSpheres(SphereOptions{}.count, false);
-}
-
-void Session::startBake(const Pick& pick) {
-  preparing_ = true;
-  const auto scene = state.scene;
-  const auto work = [this, scene, time_s = state.time_s,
-                     use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
-    Scene baked = cli::bakeForDrawing(scene->scene, scene->name, time_s, use_cache, console);
-    auto loaded = makeLoadedScene(scene->name, scene->ground, std::move(baked));
-    return [this, scene, loaded] {
-      preparing_ = false;
-      if (state.scene == scene) {  // not another one in the meantime
-        if (loaded->scene.nodes.size() != scene->scene.nodes.size()) state.edits.clear();
-        state.scene = loaded;
-        state.needs = {};
-        resolution.forget();
-      }
-      prepare();
-      changed();
-    };
-  };
-  jobs_.start(fmt::format("Baking for {}", pick.info->name), work, [this](const std::string& problem) {
-    preparing_ = false;
-    say(problem.empty() ? "baking was stopped; picked again, it goes on from there" : problem, true);
-    for (Pick* p : {&wanted[kLeft], &wanted[kRight]}) {
-      if (p->info->needs_bake) *p = state.left;
-    }
-    prepare();
-  });
-}
-
-void Session::startSpheres(int count, bool emission) {
-  preparing_ = true;
-  const auto scene = state.scene;
-  const auto work = [this, scene, count, emission,
-                     use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
-    auto spheres = std::make_shared<const SceneSpheres>(
-        cli::spheresForDrawing(scene->scene, scene->name, use_cache, console, count));
-    std::shared_ptr<const SceneEmission> sent;
-    if (emission) {
-      sent = std::make_shared<const SceneEmission>(
-          cli::emissionForDrawing(scene->scene, *spheres, scene->name, use_cache, console));
-    }
-    return [this, scene, spheres, sent, count] {
-      preparing_ = false;
-      if (state.scene == scene) state.needs = {spheres, sent, count, scene.get()};
-      prepare();
-      changed();
-    };
-  };
-  jobs_.start("Fitting spheres", work, [this](const std::string& problem) {
-    preparing_ = false;
-    say(problem.empty() ? "fitting of spheres was stopped" : problem, true);
-    for (Pick* p : {&wanted[kLeft], &wanted[kRight]}) {
-      if (p->info->needs_spheres)
-        *p = state.left.info->needs_spheres ? pickOf(techniques().front()) : state.left;
-    }
-    if (cli::showsSpheres(state.show)) state.show.clear();
-    prepare();
-  });
-}
-
-/// What is ready is shown from the next picture on.
-void Session::takePicks() {
-  if (!state.scene) return;
-  if (isReady(wanted[kLeft], *state.scene, state.needs)) state.left = wanted[kLeft];
-  if (isReady(wanted[kRight], *state.scene, state.needs)) state.right = wanted[kRight];
-  for (Pick* shown : {&state.left, &state.right}) {  // of a scene before this one
-    if (!isReady(*shown, *state.scene, state.needs)) *shown = pickOf(techniques().front());
-  }
 }
 
 void Session::saveScreenshot(const std::string& path) {

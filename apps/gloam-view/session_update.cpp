@@ -24,6 +24,11 @@ std::size_t residentBytes() {
   return resident * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
+/// What a picture costs depends on it.
+std::string kindOf(const std::string& left, const std::string& right, const std::string& show) {
+  return left + " " + right + " " + show;
+}
+
 constexpr int kMostGrowths = 3;
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
 
@@ -58,9 +63,9 @@ void Session::takeDrawn() {
     if (!said) say(warning);
   }
   const double frame_ms = drawn->left.frame_ms + drawn->right.frame_ms;
-  const std::string kind = drawn->technique + (drawn->split ? state.right.info->name : "") + drawn->show;
+  const std::string kind = kindOf(drawn->technique, drawn->split ? state.right.info->name : "", drawn->show);
   if (std::exchange(measured_, kind) == kind) {  // the first of its kind compiles shaders
-    resolution.add(double(drawn->width) * drawn->height, frame_ms);
+    resolution.add(kind, double(drawn->width) * drawn->height, frame_ms);
   }
   const float scale_drawn = float(drawn->height) / float(std::max(height_, 1));
   if (drawn->serial == serial_ && still_serial_ == serial_ && !video_ && growths_ < kMostGrowths &&
@@ -134,7 +139,10 @@ void Session::requestPicture() {
   // What stands still is drawn once at the size that it keeps: times that vary do not draw it again and again.
   if (!moves && still_serial_ == serial_ && still_width_ == width_ && still_height_ == height_) return;
   if (worker_.busy() && sent_serial_ == serial_) return;
-  const float scale = resolution.scale(double(width_) * height_, moves);
+  takePicks();
+  const bool both = state.split == Split::kTechnique;
+  const std::string kind = kindOf(state.left.info->name, both ? state.right.info->name : "", state.show);
+  const float scale = resolution.scale(kind, double(width_) * height_, moves);
   int width = std::max(1, int(std::lround(float(width_) * scale)));
   int height = std::max(1, int(std::lround(float(height_) * scale)));
   if (video_ && video_->frames() > 0 && drawn_) width = drawn_->width, height = drawn_->height;
@@ -142,7 +150,6 @@ void Session::requestPicture() {
     if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
     return;
   }
-  takePicks();
   state.width = width;
   state.height = height;
   state.camera = camera.posed();

@@ -39,6 +39,10 @@ struct Pick {
   const TechniqueInfo* info = nullptr;
   Settings settings;
 };
+/// With its defaults.
+inline Pick pickOf(const TechniqueInfo& info) {
+  return {&info, Settings(info.options)};
+}
 
 enum class Split { kNone, kTechnique, kReference };
 
