@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/emission_set.h"
 
+#include <gloam/renderer.h>
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "golden.h"
 #include "scene/builtin_shapes.h"
 #include "scene/scene_builder.h"
 
@@ -87,6 +89,43 @@ TEST(EmissionSet, EmissionOfOthersIsRefused) {
   EXPECT_THROW(EmissionSet(scene, spheres, emission, {{1.0f, 1.0f}, {}}), Error);
   emission.sets[0].spheres.pop_back();
   EXPECT_THROW(EmissionSet(scene, spheres, emission, {{1.0f, 1.0f}, {}}), Error);
+}
+
+// A red ball on the ground beside a white one, under a low sun: red on the white ball and on the ground, the ground's light below both.
+TEST(EmissionSet, GoldenPicture) {
+  SceneBuilder builder("balls");
+  builder.place("red", shapes::moved(shapes::icosphere(1.0f, 12), {-1.1f, 1, 0}),
+                builder.diffuse("red", {0.8f, 0.1f, 0.1f}));
+  builder.place("white", shapes::moved(shapes::icosphere(1.0f, 12), {1.1f, 1, 0}),
+                builder.diffuse("white", glm::vec3(0.8f)));
+  builder.place("ground", shapes::ground(16, 16, 4, 4), builder.diffuse("grey", glm::vec3(0.5f)));
+  builder.sky("preetham?elevation=40&azimuth=100");
+  const Scene scene = builder.finish();
+  SceneSpheres spheres;
+  spheres.sets.resize(3);
+  for (std::size_t s = 0; s < 3; ++s) {
+    spheres.sets[s].meshes = scene.nodes[s].meshes;
+    spheres.sets[s].nodes = {int(s)};
+  }
+  spheres.sets[0].spheres = {{{-1.1f, 1, 0}, 1.0f}};
+  spheres.sets[1].spheres = {{{1.1f, 1, 0}, 1.0f}};
+  spheres.sets[2].receive_only = "flat";
+  PosedCamera camera;
+  camera.camera.vertical_fov_rad = 0.7f;
+  camera.world_from_view = glm::inverse(
+      glm::lookAt(glm::vec3(1.5f, 3.5f, 7.0f), glm::vec3(0.0f, 0.8f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f)));
+  Renderer renderer("llvmpipe");
+  const SceneEmission emission = sampleEmission(scene, spheres);
+  EXPECT_THROW(renderer.setEmission(scene, emission), Error);
+  renderer.setScene(scene);
+  renderer.setSpheres(scene, spheres);
+  const RenderOptions options{.width = 128, .height = 128, .technique = "spherical_lights"};
+  EXPECT_THROW(renderer.render(pose(scene, 0.0f), camera, options), Error);
+  renderer.setEmission(scene, emission);
+  const RenderedFrame frame = renderer.render(pose(scene, 0.0f), camera, options);
+  EXPECT_EQ(test::compareWithGolden(toDisplay(frame.layers, {.exposure_stops = -1.0f}),
+                                    "spherical_lights_balls", {.max_difference = 4}),
+            "");
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ Gathered gather(vec3 position, vec3 normal) {
   Sh4 before = kNothing, own = kNothing, seen_through = kNothing;
   const bool send = has_indirect || glows;
   vec3 glowing = vec3(0.0);
+  vec4 from_patches = vec4(0.0);
+  float clear_of_spheres = 0.0;
   bool kept = false;  // seen_through is that of `before`
   float key = -1.0, clear = 0.0;
   uint last = 0xffffffffu, i = 0u, left = 0u;
@@ -105,8 +107,10 @@ Gathered gather(vec3 position, vec3 normal) {
       if (final) {
         got.direct = irradianceThrough(e, normal);
         got.visibility = e[0] / kShZonal0;
-      } else if (spheres_done) {
-        if (has_indirect) got.indirect += lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+        got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine));
+            } else if (spheres_done && has_indirect) {
+        from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+        clear_of_spheres = dotOf(GLOAM_SH4_OF(e), cosine);
       } else if (visibility_kind == kDifference) {
         float through = dotOf(GLOAM_SH4_OF(e), cosine);
         if (t == 0) clear = through; else behind = through;

@@ -43,9 +43,9 @@ Sh4 logOfPatches(vec3 position, vec3 normal) {
   return sum;
 }
 
-/// Irradiance from patches, each through what spheres leave of its cone.
-vec3 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
-  vec3 sum = vec3(0.0);
+/// Irradiance from patches, each through what spheres leave of its cone; w: that of patches of radiance 1.
+vec4 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
+  vec4 sum = vec4(0.0);
   for (uint j = 0u; j < push.params.sending_patches; ++j) {
     float height;
     vec3 toward = patchVector(sending_patches.at[j], position, height);
@@ -54,9 +54,17 @@ vec3 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
     vec3 way = size > 1e-9 ? toward / size : normal;
     float open = clamp(dotOf(scaled(basisAt(way), disc), visible) / max(disc.x, 1e-12), 0.0, 1.0);
     float facing = height > 0.0 ? max(0.0, dot(toward, normal)) : 0.0;
-    sum += patch_radiance.at[j] * (facing * open);
+        sum += vec4(patch_radiance.at[j], 1.0) * (facing * open);
   }
   return sum;
 }
+
+/// Patches behind patches count once: together they send from as much as they take of what spheres leave (PX-6's way).
+/// clear, behind: irradiance of radiance 1 through what spheres, and what spheres and patches leave.
+vec3 withoutOverlap(vec4 light_of_patches, float clear, float behind) {
+  float taken = kPatchSlack * max(0.0, clear - behind);
+  return light_of_patches.rgb * (light_of_patches.w > 1e-9 ? min(1.0, taken / light_of_patches.w) : 0.0);
+}
+
 
 #endif

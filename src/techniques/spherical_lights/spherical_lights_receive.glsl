@@ -74,15 +74,21 @@ Gathered receive(vec3 position, vec3 normal) {
     }
   }
   // What spheres leave, through which patches are seen; then with patches before the environment, too.
+  Sh4 cosine = scaled(basisAt(normal), vec4(kShCosine0, kShCosine1, kShCosine2, 0.0));
+  vec4 from_patches = vec4(0.0);
+  float clear = 0.0;
   for (int t = has_indirect && push.params.sending_patches > 0u ? 0 : 1; t < 2; ++t) {
     Sh4 f = all;
     if (t == 1) f = plus(all, logOfPatches(position, normal));
     float e[16];
     shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
+    float through = dotOf(GLOAM_SH4_OF(e), cosine);
     if (t == 0) {
-      got.indirect += lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+      from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
+      clear = through;
     } else {
       got.direct += irradianceThrough(e, normal);
+      got.indirect += withoutOverlap(from_patches, clear, through);
       got.visibility = e[0] / kShZonal0;
     }
   }

@@ -116,25 +116,31 @@ class Twin {
     const bool above = glm::dot(c, glm::dvec3(row.normal)) <= 0.0;
     return glm::vec3((glm::dot(sum, glm::dvec3(row.normal)) > 0.0) == above ? -sum : sum);
   }
+  static sh::Sh coneOf(const glm::vec3& toward) {
+    const float size = glm::length(toward);
+    return sh::disc(4, toward / size, std::asin(std::sqrt(std::min(1.0f, size / 3.14159265f))));
+  }
+  /// Adds patches to the logs of all spheres, and what they send.
   void addPatches(const glm::vec3& p, const glm::vec3& n, sh::Sh& logs, glm::vec3& sent) const {
-    const sh::Sh seen_through = sh::expQuadratic(logs);
+    const sh::Sh clear = sh::expQuadratic(logs), cosine = sh::rotateZonal(sh::clampedCosine(4), n);
+    glm::vec3 arriving(0.0f);
+    float white = 0.0f;
     for (std::size_t j = 0; j < rows_.sending_patches.size(); ++j) {
       const PatchRow& row = rows_.sending_patches[j];
       const glm::vec3 toward = patchVector(row, p);
-      const float size = glm::length(toward);
-      if (!(glm::dot(p - row.center, row.normal) > 0.0f) || size < 1e-9f) continue;
-      const sh::Sh disc =
-          sh::disc(4, toward / size, std::asin(std::sqrt(std::min(1.0f, size / 3.14159265f))));
-      const float open = sh::dot(disc, seen_through) / (disc[0] * sh::zonalFactor(0));
-      if (j < radiance_.size())
-        sent += radiance_[j] * std::max(0.0f, glm::dot(toward, n)) * std::clamp(open, 0.0f, 1.0f);
+      if (!(glm::dot(p - row.center, row.normal) > 0.0f) || glm::length(toward) < 1e-9f) continue;
+      const sh::Sh cone = coneOf(toward);
+      const float open = sh::dot(cone, clear) / (cone[0] * sh::zonalFactor(0));
+      const float counts = std::max(0.0f, glm::dot(toward, n)) * std::clamp(open, 0.0f, 1.0f);
+      white += counts;
+      if (j < radiance_.size()) arriving += counts * radiance_[j];
     }
     for (const PatchRow& row : rows_.blocking_patches) {
       const glm::vec3 toward = patchVector(row, p);
       const float size = glm::length(toward), height = glm::dot(p - row.center, row.normal);
       if (size < 1e-9f) continue;
-      const float behind =
-          glm::clamp((-height / (0.1f * glm::length(row.half_u + row.half_v)) - 0.2f) / 0.8f, 0.0f, 1.0f);
+      const float far = -height / (0.1f * glm::length(row.half_u + row.half_v));
+      const float behind = glm::clamp((far - 0.2f) / 0.8f, 0.0f, 1.0f);
       const float there = height >= 0.0f ? 1.0f : behind * behind * (3.0f - 2.0f * behind);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
@@ -144,6 +150,8 @@ class Twin {
         for (int c = l * l; c < (l + 1) * (l + 1); ++c) logs[c] += weights[l] * y[c];
       }
     }
+    const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(logs), cosine));
+    if (white > 1e-9f) sent += arriving * std::min(1.0f, std::max(0.0f, taken) / white);
   }
   sh::Sh logOf(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
     const spheres::SeenSphere seen = see(p, n, i);
