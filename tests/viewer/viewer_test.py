@@ -181,7 +181,8 @@ class ViewerTest(unittest.TestCase):
             {"resize": [1, 1]}, {"wait": 10}, {"resize": [3840, 2160]}, {"set": {"scale": 0.1}}, {"wait": "idle"},
             {"window_screenshot": "large.png"}, {"resize": [640, 420]}, {"wait": "idle"},
             {"minimise": True}, {"wait": 5}, {"restore": True}, {"wait": "idle"},
-            {"lose_device": True}, {"wait": 3}, {"wait": "idle"}, {"stats": "end.json"}])
+            {"lose_device": True}, {"wait": 3}, {"wait": "idle"}, {"lose_window": True}, {"wait": 3}, {"wait": "idle"},
+            {"window_screenshot": "end.png"}, {"stats": "end.json"}])
         bad = "\n".join(self.stats("bad.json")["messages"])
         for name in ["no.glb", "no.json", "no.hdr"]:
             self.assertIn(name, bad)
@@ -189,7 +190,10 @@ class ViewerTest(unittest.TestCase):
         self.assertEqual(self.stats("good.json")["scene"], "lamp.glb")
         data = (self.folder / "large.png").read_bytes()
         self.assertEqual(struct.unpack(">II", data[16:24]), (3840, 2160))
-        self.assertIn("the renderer starts anew", "\n".join(self.stats("end.json")["messages"]))
+        said = "\n".join(self.stats("end.json")["messages"])
+        self.assertIn("the renderer starts anew", said)
+        self.assertIn("opened anew", said)
+        self.assertGreater(len(set(png_size_and_rows(self.folder / "end.png")[2][200])), 8)  # there is a picture again
 
     # ---- switching ---------------------------------------------------------------------------------------------------
 
@@ -219,6 +223,25 @@ class ViewerTest(unittest.TestCase):
         before, after = self.stats("before.json"), self.stats("after.json")
         self.assertGreater(after["pictures"], before["pictures"] + 50)
         self.assertLess(after["resident_bytes"] - before["resident_bytes"], 3 << 20)
+
+    # ---- handles ---------------------------------------------------------------------------------------------------------
+
+    def test_handles_move_a_lamp_and_a_box(self):
+        self.script([
+            {"wait": "idle"}, {"screenshot": "before.png"},
+            {"click": [320, 51]}, {"wait": "idle"}, {"drag": [380, 51, 420, 51]}, {"wait": "idle"}, {"stats": "lamp.json"},
+            {"screenshot": "lamp.png"},
+            {"click": [270, 290]}, {"wait": "idle"}, {"stats": "box.json"}, {"key": "escape"}, {"wait": 2},
+            {"drag": [600, 300, 560, 300]}, {"wait": "idle"}, {"stats": "camera.json"}],
+            BOX, *SMALL, "--no-panel", "--scale", "0.3")
+        lamp, box, camera = self.stats("lamp.json"), self.stats("box.json"), self.stats("camera.json")
+        self.assertEqual(lamp["edits"], 1)
+        self.assertEqual(camera["edits"], 1)  # a drag beside the handles turns the camera
+        self.assertNotEqual(camera["camera"], box["camera"])
+        self.assertEqual(box["camera"], lamp["camera"])
+        self.assertNotEqual(box["selected"], lamp["selected"])
+        self.assertGreaterEqual(box["selected"], 0)
+        self.assertNotEqual(png_size_and_rows(self.folder / "before.png"), png_size_and_rows(self.folder / "lamp.png"))
 
     # ---- comparison ------------------------------------------------------------------------------------------------------
 
