@@ -185,6 +185,7 @@ bool App::update() {
 
 void App::drawFrame() {
   drawn_s_ = glfwGetTime();
+  if (std::exchange(lose_window_, false)) throw DeviceLost();
   int width = 0, height = 0, window_width = 0, window_height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glfwGetWindowSize(window_, &window_width, &window_height);

@@ -36,6 +36,7 @@ class App {
   void minimise(bool minimised);
   bool captureWindow(const std::string& path);  ///< true when it is saved
   void writeStats(const std::string& path);
+  void loseWindow() { lose_window_ = true; }  ///< as if the driver had lost the window's device
   void quit() { ui_.quit = true; }
 
  private:
@@ -60,8 +61,8 @@ class App {
   UiState ui_;
   Place place_;
   std::uint64_t uploaded_ = 0;
-  int recoveries_ = 0, errand_pictures_ = 0;
-  bool letters_wanted_ = true, capture_asked_ = false, saved_ = false;
+  int recoveries_ = 0;
+  bool letters_wanted_ = true, capture_asked_ = false, lose_window_ = false;
   double input_s_ = 0.0, last_frame_s_ = 0.0, drawn_s_ = 0.0;
   std::optional<glm::vec2> mouse_;  ///< of a script, in place of the real one
   bool buttons_[3] = {};

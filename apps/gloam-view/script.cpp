@@ -44,6 +44,7 @@ const std::vector<std::string>& knownSteps() {
                                                   "stats",
                                                   "repeat",
                                                   "lose_device",
+                                                  "lose_window",
                                                   "quit"};
   return kKnown;
 }
@@ -176,6 +177,7 @@ bool Script::done(App& app, const Step& step) {
   if (what == "load_preset") return session.loadPreset(textOf(value, step.place)), true;
   if (what == "stats") return app.writeStats(textOf(value, step.place)), true;
   if (what == "lose_device") return session.loseDevice(), true;
+  if (what == "lose_window") return app.loseWindow(), true;
   if (what == "video") {
     value.is_string() ? session.startVideo(value.get<std::string>()) : session.stopVideo();
     return true;

@@ -34,9 +34,12 @@ void addWindowOptions(CLI::App& app, ViewerChoice& choice) {
   cli::addNumber(app, "--ui-scale", choice.ui_scale, {0.5, 4.0}, "FACTOR",
                  "of letters and panels; by default the display's")
       ->group("Window");
-  app.add_flag("--no-vsync{false}", choice.vsync, "shows pictures as soon as they are there")
+  app.add_flag_callback(
+         "--no-vsync", [&choice] { choice.vsync = false; }, "shows pictures as soon as they are there")
       ->group("Window");
-  app.add_flag("--no-panel{false}", choice.panel, "begins with the panels hidden")->group("Window");
+  app.add_flag_callback(
+         "--no-panel", [&choice] { choice.panel = false; }, "begins with the panels hidden")
+      ->group("Window");
 }
 
 void declare(CLI::App& app, ViewerChoice& choice) {
@@ -46,12 +49,16 @@ void declare(CLI::App& app, ViewerChoice& choice) {
   cli::addSceneOptions(app, choice.scene);
   cli::addLightOptions(app, choice.light);
   cli::addViewOptions(app, choice.view);
+  app.get_option("--size")
+      ->description("of the window, in pixels")
+      ->default_str(fmt::format("{}x{}", kDefaultWidth, kDefaultHeight));
   cli::addTechniqueOptions(app, choice.technique);
   cli::addDisplayOptions(app, choice.display);
   cli::addDeviceOption(app, choice.device);
   cli::addText(app, "--show", choice.show, "LAYER",
                "a layer or an image of the technique instead of the light");
-  app.add_flag("--no-cache{false}", choice.use_cache, "neither take nor keep a bake or spheres");
+  app.add_flag_callback(
+      "--no-cache", [&choice] { choice.use_cache = false; }, "neither take nor keep a bake or spheres");
   addWindowOptions(app, choice);
   cli::addSettingsFile(app);
 }

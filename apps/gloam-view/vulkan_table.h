@@ -26,35 +26,36 @@ namespace gloam::view {
   X(GetPhysicalDeviceSurfacePresentModesKHR) \
   X(EnumerateDeviceExtensionProperties) X(DestroySurfaceKHR) X(CreateDevice) X(GetDeviceProcAddr)
 
-#define GLOAM_VIEW_DEVICE_FUNCTIONS(X)                                                                       \
-  X(DestroyDevice)                                                                                           \
-  X(GetDeviceQueue)                                                                                          \
-  X(DeviceWaitIdle)                                                                                          \
-  X(QueueSubmit)                                                                                             \
-  X(QueuePresentKHR)                                                                                         \
-  X(CreateSwapchainKHR)                                                                                      \
-  X(DestroySwapchainKHR)                                                                                     \
-  X(GetSwapchainImagesKHR)                                                                                   \
-  X(AcquireNextImageKHR)                                                                                     \
-  X(CreateImage)                                                                                             \
-  X(DestroyImage) X(CreateImageView) X(DestroyImageView) X(GetImageMemoryRequirements) X(CreateBuffer)       \
-      X(DestroyBuffer) X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory)    \
-          X(BindImageMemory) X(MapMemory) X(UnmapMemory) X(CreateCommandPool) X(DestroyCommandPool)          \
-              X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) X(ResetCommandPool)        \
-                  X(CreateFence) X(DestroyFence) X(WaitForFences) X(ResetFences) X(CreateSemaphore)          \
-                      X(DestroySemaphore) X(CreateSampler) X(DestroySampler) X(CreateDescriptorSetLayout)    \
-                          X(DestroyDescriptorSetLayout) X(CreateDescriptorPool) X(DestroyDescriptorPool)     \
-                              X(AllocateDescriptorSets) X(FreeDescriptorSets) X(UpdateDescriptorSets)        \
-                                  X(CreatePipelineLayout) X(DestroyPipelineLayout) X(CreateShaderModule)     \
-                                      X(DestroyShaderModule) X(CreateGraphicsPipelines) X(DestroyPipeline)   \
-                                          X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) X(   \
-                                              CmdResetQueryPool) X(CmdWriteTimestamp) X(CmdPipelineBarrier)  \
-                                              X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer)                \
-                                                  X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline) \
-                                                      X(CmdBindDescriptorSets) X(CmdBindVertexBuffers)       \
-                                                          X(CmdBindIndexBuffer) X(CmdPushConstants)          \
-                                                              X(CmdSetViewport) X(CmdSetScissor)             \
-                                                                  X(CmdDrawIndexed)
+#define GLOAM_VIEW_DEVICE_FUNCTIONS(X)                                                                      \
+  X(DestroyDevice)                                                                                          \
+  X(GetDeviceQueue)                                                                                         \
+  X(DeviceWaitIdle)                                                                                         \
+  X(QueueSubmit)                                                                                            \
+  X(QueuePresentKHR)                                                                                        \
+  X(CreateSwapchainKHR)                                                                                     \
+  X(DestroySwapchainKHR)                                                                                    \
+  X(GetSwapchainImagesKHR)                                                                                  \
+  X(AcquireNextImageKHR)                                                                                    \
+  X(CreateImage)                                                                                            \
+  X(DestroyImage)                                                                                           \
+  X(CreateImageView) X(DestroyImageView) X(GetImageMemoryRequirements) X(CreateBuffer) X(DestroyBuffer)     \
+      X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(BindImageMemory) \
+          X(MapMemory) X(UnmapMemory) X(CreateCommandPool) X(DestroyCommandPool) X(AllocateCommandBuffers)  \
+              X(BeginCommandBuffer) X(EndCommandBuffer) X(ResetCommandPool) X(CreateFence) X(DestroyFence)  \
+                  X(WaitForFences) X(ResetFences) X(CreateSemaphore) X(DestroySemaphore) X(CreateSampler)   \
+                      X(DestroySampler) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout)          \
+                          X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets)        \
+                              X(FreeDescriptorSets) X(UpdateDescriptorSets) X(CreatePipelineLayout)         \
+                                  X(DestroyPipelineLayout) X(CreateShaderModule) X(DestroyShaderModule)     \
+                                      X(CreateGraphicsPipelines) X(DestroyPipeline) X(CreateQueryPool)      \
+                                          X(DestroyQueryPool) X(GetQueryPoolResults) X(CmdResetQueryPool)   \
+                                              X(CmdWriteTimestamp) X(CmdPipelineBarrier)                    \
+                                                  X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer)           \
+                                                      X(CmdBeginRendering) X(CmdEndRendering)               \
+                                                          X(CmdBindPipeline) X(CmdBindDescriptorSets)       \
+                                                              X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) \
+                                                                  X(CmdPushConstants) X(CmdSetViewport)     \
+                                                                      X(CmdSetScissor) X(CmdDrawIndexed)
 
 struct VulkanTable {
 #define GLOAM_VIEW_MEMBER(name) PFN_vk##name name = nullptr;
