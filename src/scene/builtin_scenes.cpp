@@ -32,6 +32,8 @@ const std::vector<Entry>& entries() {
        makeGallery},
       {{"lamp", "a corner of a room at night: point, spot and directional light through thin bars"},
        makeLamp},
+      {{"swing", "a room with a red and a blue wall in which a lamp swings (4 s, loops): light that bounces"},
+       makeSwing},
       {{"textured", "tiles, bricks, a plant: textures, normal maps, alpha masks, texture transforms"},
        makeTextured},
       {{"lanterns", "a knot and a ball pass glowing panels under a moving lamp (8 s, loops): local light"},

@@ -76,6 +76,7 @@ Scene makeMobile(const Detail& detail, NamedValues& values);          //
 Scene makeColumns(const Detail& detail, NamedValues& values);         // builtin_columns.cpp
 Scene makeGallery(const Detail& detail, NamedValues& values);         // builtin_gallery.cpp
 Scene makeLanterns(const Detail& detail, NamedValues& values);        // builtin_lanterns.cpp
+Scene makeSwing(const Detail& detail, NamedValues& values);           // builtin_swing.cpp
 Scene makeTextured(const Detail& detail, NamedValues& values);        // builtin_textured.cpp
 Scene makeCloud(const Detail& detail, NamedValues& values);           // builtin_cloud.cpp
 Scene makePassing(const Detail& detail, NamedValues& values);         // builtin_neighbours.cpp

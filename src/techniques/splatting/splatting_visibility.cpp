@@ -8,8 +8,8 @@ namespace gloam::splatting {
 
 namespace {
 
-/// A texel's mean lies below a surface that bulges, by a fortieth of its side where normals vary by as much as lets it stay whole.
-constexpr float kSag = 0.025f;
+/// A texel's mean lies below a surface that bulges, by a twentieth of its side at most where normals vary by as much as lets it stay whole.
+constexpr float kSag = 0.05f;
 /// A light of a cell lies below the surface that it stands for, too: parts of its radius.
 constexpr float kLightOffset = 0.1f;
 
