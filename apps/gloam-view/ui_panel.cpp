@@ -90,6 +90,10 @@ void techniqueSection(Session& session) {
   }
   dim(wanted.summary);
   if (session.waitsFor(kLeft)) dim(fmt::format("being prepared; {} is shown", session.state.left.info->name));
+  const Coverage covers = coverageWith(wanted, session.wanted[kLeft].settings);
+  const bool lamps_only = !covers.environment_direct && !covers.environment_indirect;
+  if (lamps_only && session.state.scene && session.state.scene->light_nodes.empty())
+    dim("It computes the light of lamps, and this scene has none.");
   ImGui::Spacing();
   optionControls(session, kLeft);
 }

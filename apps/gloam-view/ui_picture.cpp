@@ -73,7 +73,7 @@ void messageList(const Session& session, const UiState& ui, const Place& place, 
   const float width = place.size.x - 40.0f * ui.scale;
   if (width < 120.0f * ui.scale) return;
   int shown = 0;
-  for (auto m = session.messages().rbegin(); m != session.messages().rend() && shown < 5; ++m) {
+  for (auto m = session.messages().rbegin(); m != session.messages().rend() && shown < 3; ++m) {
     if (session.now_s() - m->at_s > (m->problem ? kProblemSeconds : kShownSeconds)) continue;
     const std::string text = fitted(m->text, width - 16.0f * ui.scale);
     const float y = bottom - line * float(shown + 1);
