@@ -63,10 +63,11 @@ Gathered gather(vec3 position, vec3 normal) {
   bool kept = false;  // seen_through is that of `before`
   float key = -1.0, clear = 0.0;
   uint last = 0xffffffffu, i = 0u, left = 0u;
-  uint steps = push.params.spheres + 1u;
-  // After all spheres: what they leave, through which patches are seen; then with patches before the environment, too.
+  uint steps = push.params.spheres + 2u;
+  Sh4 whole, patch_logs = logOfPatches(position, normal, whole);
+  // After all spheres: what they leave, through which patches are seen; how much of that patches take; then both before the environment.
   for (uint k = 0u; k <= steps; ++k) {
-    bool final = k == steps, spheres_done = k + 1u >= steps;
+    bool final = k == steps, spheres_done = k + 2u >= steps, patches_taken = k + 1u == steps;
     if (left == 0u) {
       before = plus(before, own);
       own = kNothing;
@@ -80,7 +81,8 @@ Gathered gather(vec3 position, vec3 normal) {
     Sh4 blockers = before, y = kNothing, log_i = kNothing;
     SeenSphere seen = SeenSphere(0.0, normal);
     bool more = false;
-    if (final) blockers = plus(before, logOfPatches(position, normal));
+    if (patches_taken) blockers = plus(before, whole);
+    if (final) blockers = plus(before, patch_logs);
     if (!spheres_done) {
       seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
       y = basisAt(seen.direction);
@@ -107,6 +109,7 @@ Gathered gather(vec3 position, vec3 normal) {
       if (final) {
         got.direct = irradianceThrough(e, normal);
         got.visibility = e[0] / kShZonal0;
+      } else if (patches_taken) {
         got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine));
             } else if (spheres_done && has_indirect) {
         from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));

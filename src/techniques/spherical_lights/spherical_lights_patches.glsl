@@ -28,8 +28,10 @@ vec3 patchVector(PatchRow row, vec3 position, out float height) {
 
 /// Logs of what patches leave visible. From behind one is there only at some distance: a point of a surface may lie a little
 /// below the rectangle that stands for it.
-Sh4 logOfPatches(vec3 position, vec3 normal) {
+/// `whole`: of all that the cones cover, not only above the tangent plane.
+Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   Sh4 sum = kNothing;
+  whole = kNothing;
   for (uint j = 0u; j < push.params.blocking_patches; ++j) {
     float height;
     vec3 toward = patchVector(blocking_patches.at[j], position, height);
@@ -39,6 +41,7 @@ Sh4 logOfPatches(vec3 position, vec3 normal) {
     vec3 way = size > 1e-9 ? toward / size : normal;
     SeenSphere seen = seenSphere(vec3(0.0), normal, way, a);
     sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * there));
+    whole = plus(whole, scaled(basisAt(way), logWeights(a) * there));
   }
   return sum;
 }

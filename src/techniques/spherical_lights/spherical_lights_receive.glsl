@@ -73,22 +73,25 @@ Gathered receive(vec3 position, vec3 normal) {
       if (glows) got.direct += GLOAM_RADIANCE(glow.at[i]) * share;
     }
   }
-  // What spheres leave, through which patches are seen; then with patches before the environment, too.
+  // What spheres leave, through which patches are seen; how much of that patches take; then both before the environment.
   Sh4 cosine = scaled(basisAt(normal), vec4(kShCosine0, kShCosine1, kShCosine2, 0.0));
+  Sh4 whole, patch_logs = logOfPatches(position, normal, whole);
   vec4 from_patches = vec4(0.0);
   float clear = 0.0;
-  for (int t = has_indirect && push.params.sending_patches > 0u ? 0 : 1; t < 2; ++t) {
+  for (int t = has_indirect && push.params.sending_patches > 0u ? 0 : 2; t < 3; ++t) {
     Sh4 f = all;
-    if (t == 1) f = plus(all, logOfPatches(position, normal));
+    if (t == 1) f = plus(all, whole);
+    if (t == 2) f = plus(all, patch_logs);
     float e[16];
     shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
     float through = dotOf(GLOAM_SH4_OF(e), cosine);
     if (t == 0) {
       from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
       clear = through;
+    } else if (t == 1) {
+      got.indirect += withoutOverlap(from_patches, clear, through);
     } else {
       got.direct += irradianceThrough(e, normal);
-      got.indirect += withoutOverlap(from_patches, clear, through);
       got.visibility = e[0] / kShZonal0;
     }
   }

@@ -31,7 +31,7 @@ layout(scalar, push_constant) uniform Push { GatherParams params; uint points; }
 
 /// The environment alone asks for no order.
 vec3 throughAll(vec3 position, vec3 normal) {
-  Sh4 logs = logOfPatches(position, normal);
+  Sh4 whole, logs = logOfPatches(position, normal, whole);
   for (uint j = 0u; j < push.params.spheres; ++j) logs = plus(logs, logOf(position, normal, j));
   float o[16];
   shExpQuadratic4(GLOAM_ARRAY_OF(logs), o);

@@ -72,9 +72,8 @@ struct PatchRow {
   vec3 albedo;
 };
 GLOAM_SHARED_SIZE(PatchRow, 60)
-/// What patches take of the view is found from a few cones, which the tangent plane of a receiver makes smaller than they are: up to that
-/// much more may come from them.
-GLOAM_SHARED_CONST float kPatchSlack = 2.0f;
+/// What patches take of the view is found from a few cones: that much more may come from them.
+GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
 /// Samples of one.
 GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 

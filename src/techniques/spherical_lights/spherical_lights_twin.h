@@ -125,6 +125,7 @@ class Twin {
     const sh::Sh clear = sh::expQuadratic(logs), cosine = sh::rotateZonal(sh::clampedCosine(4), n);
     glm::vec3 arriving(0.0f);
     float white = 0.0f;
+    sh::Sh whole = logs;
     for (std::size_t j = 0; j < rows_.sending_patches.size(); ++j) {
       const PatchRow& row = rows_.sending_patches[j];
       const glm::vec3 toward = patchVector(row, p);
@@ -144,13 +145,17 @@ class Twin {
       const float there = height >= 0.0f ? 1.0f : behind * behind * (3.0f - 2.0f * behind);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
-      const sh::Sh y = sh::evaluate(4, seen.direction);
-      const glm::vec4 weights = there * logFitted(logs_, seen.sin_half_angle);
-      for (int l = 0; l < 4; ++l) {
-        for (int c = l * l; c < (l + 1) * (l + 1); ++c) logs[c] += weights[l] * y[c];
-      }
+      const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone) {
+        const sh::Sh y = sh::evaluate(4, cone.direction);
+        const glm::vec4 weights = there * logFitted(logs_, cone.sin_half_angle);
+        for (int l = 0; l < 4; ++l) {
+          for (int c = l * l; c < (l + 1) * (l + 1); ++c) sum[c] += weights[l] * y[c];
+        }
+      };
+      add(logs, seen);
+      add(whole, {std::sqrt(std::min(1.0f, size / 3.14159265f)), toward / size});
     }
-    const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(logs), cosine));
+    const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(whole), cosine));
     if (white > 1e-9f) sent += arriving * std::min(1.0f, std::max(0.0f, taken) / white);
   }
   sh::Sh logOf(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
