@@ -18,12 +18,12 @@ class Resolution {
   float moving_ms = 90.0f;   ///< what a picture may take while something moves
   float still_ms = 1500.0f;  ///< what one may take that stands still
 
-  /// Of a picture that took that long: learns what a pixel of its kind (technique and what is shown) costs. A part of the time,
-  /// kBaseMs, is no pixel's.
-  void add(const std::string& kind, double pixels, double milliseconds) {
+  /// Of a picture that took that long: learns what a pixel of its kind (technique and what is shown) costs, apart for small
+  /// pictures, in which vertices take their share. A part of the time, kBaseMs, is no pixel's.
+  void add(const std::string& kind, double pixels, float scale_drawn, double milliseconds) {
     if (pixels < 1.0) return;
     const double cost = std::max(milliseconds - kBaseMs, 0.1) / pixels;
-    const auto [known, fresh] = costs_.try_emplace(kind, cost);
+    const auto [known, fresh] = costs_.try_emplace(keyOf(kind, scale_drawn < kSmall), cost);
     if (!fresh) known->second = 0.5 * known->second + 0.5 * cost;
   }
   /// Whether a picture that stands still took so little that one of more pixels is worth its time.
@@ -34,8 +34,8 @@ class Resolution {
   /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time.
   float scale(const std::string& kind, double window_pixels, bool moving) const {
     if (fixed > 0.0f) return fixed;
-    const auto known = costs_.find(kind);
-    if (known == costs_.end()) return moving ? 0.35f : 0.71f;
+    const auto known = costs_.find(keyOf(kind, moving));
+    if (known == costs_.end()) return moving ? 0.25f : 0.71f;
     const double affordable = std::max(double(moving ? moving_ms : still_ms) - kBaseMs, 5.0) / known->second;
     const double share = std::sqrt(affordable / std::max(window_pixels, 1.0));
     float best = kSteps[0];
@@ -46,7 +46,10 @@ class Resolution {
   }
 
  private:
+  static std::string keyOf(const std::string& kind, bool small) { return small ? kind + " small" : kind; }
+
   static constexpr double kBaseMs = 8.0;
+  static constexpr float kSmall = 0.55f;
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
   std::map<std::string, double> costs_;  ///< milliseconds a pixel
 };

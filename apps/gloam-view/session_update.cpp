@@ -65,7 +65,8 @@ void Session::takeDrawn() {
   const double frame_ms = drawn->left.frame_ms + drawn->right.frame_ms;
   const std::string kind = kindOf(drawn->technique, drawn->split ? state.right.info->name : "", drawn->show);
   if (std::exchange(measured_, kind) == kind) {  // the first of its kind compiles shaders
-    resolution.add(kind, double(drawn->width) * drawn->height, frame_ms);
+    resolution.add(kind, double(drawn->width) * drawn->height,
+                   float(drawn->height) / float(std::max(height_, 1)), frame_ms);
   }
   const float scale_drawn = float(drawn->height) / float(std::max(height_, 1));
   if (drawn->serial == serial_ && still_serial_ == serial_ && !video_ && growths_ < kMostGrowths &&
