@@ -26,8 +26,8 @@ vec3 patchVector(PatchRow row, vec3 position, out float height) {
   return (dot(sum, row.normal) > 0.0) == (height >= 0.0) ? -sum : sum;
 }
 
-/// Logs of what patches leave visible. From behind one is there only at some distance: a point of a surface may lie a little
-/// below the rectangle that stands for it.
+/// Logs of what patches leave visible. In its plane one fades out, from behind at some distance: a point of a
+/// surface may lie a little below the rectangle that stands for it.
 /// `whole`: of all that the cones cover, not only above the tangent plane.
 Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   Sh4 sum = kNothing;
@@ -36,8 +36,8 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
     float height;
     vec3 toward = patchVector(blocking_patches.at[j], position, height);
     float size = length(toward), a = sqrt(min(size / 3.14159265, 1.0));
-    float behind = -height / (0.1 * length(blocking_patches.at[j].half_u + blocking_patches.at[j].half_v));
-    float there = height >= 0.0 ? 1.0 : smoothstep(0.2, 1.0, behind);
+    float scale = length(blocking_patches.at[j].half_u + blocking_patches.at[j].half_v);
+    float there = height >= 0.0 ? smoothstep(0.0, 0.002, height / scale) : smoothstep(0.02, 0.1, -height / scale);
     vec3 way = size > 1e-9 ? toward / size : normal;
     SeenSphere seen = seenSphere(vec3(0.0), normal, way, a);
     sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * there));

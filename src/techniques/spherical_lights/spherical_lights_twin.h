@@ -140,9 +140,9 @@ class Twin {
       const glm::vec3 toward = patchVector(row, p);
       const float size = glm::length(toward), height = glm::dot(p - row.center, row.normal);
       if (size < 1e-9f) continue;
-      const float far = -height / (0.1f * glm::length(row.half_u + row.half_v));
-      const float behind = glm::clamp((far - 0.2f) / 0.8f, 0.0f, 1.0f);
-      const float there = height >= 0.0f ? 1.0f : behind * behind * (3.0f - 2.0f * behind);
+      const float scale = glm::length(row.half_u + row.half_v);
+      const float step = height >= 0.0f ? height / scale / 0.002f : (-height / scale - 0.02f) / 0.08f;
+      const float t = glm::clamp(step, 0.0f, 1.0f), there = t * t * (3.0f - 2.0f * t);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
       const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone) {
