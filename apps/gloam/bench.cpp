@@ -69,7 +69,8 @@ int benchTechnique(const BenchChoice& choice, Console& console) {
 
 /// What --paper and --scaling measure where nothing else is said.
 void chooseDefaults(BenchChoice& choice, const CLI::App& app) {
-  if (choice.paper && app.get_option("SCENE")->empty()) choice.scene.name = "builtin:walker";
+  if (choice.paper && app.get_option("SCENE")->empty())
+    choice.scene.name = choice.subject == "splatting" ? "builtin:swing" : "builtin:walker";
   if ((choice.paper || choice.scaling) && app.get_option("--size")->empty()) choice.view.size = {1024, 1024};
 }
 

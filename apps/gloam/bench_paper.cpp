@@ -18,6 +18,7 @@ struct Paper {
 constexpr Paper kPapers[] = {
     {"proxies", measureProxiesPaper},
     {"spherical_lights", measureSphericalLightsPaper},
+    {"splatting", measureSplattingPaper},
 };
 
 const char* betterText(PaperRow::Better better) {

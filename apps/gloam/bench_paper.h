@@ -45,5 +45,6 @@ int benchPaper(const BenchChoice& choice, Console& console);
 
 PaperTable measureProxiesPaper(const BenchChoice& choice, Console& console);
 PaperTable measureSphericalLightsPaper(const BenchChoice& choice, Console& console);
+PaperTable measureSplattingPaper(const BenchChoice& choice, Console& console);
 
 }  // namespace gloam::cli
