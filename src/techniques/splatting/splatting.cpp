@@ -172,7 +172,12 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
   // Distant light is not this technique's, its gloss neither.
   frame::Lighting lighting{.has_environment_gloss = true};
   const vpls::Vpls vpls = vpls::recordVpls(graph, inputs, vplOptions(settings));
-  if (vpls.capacity == 0) return lighting;
+  if (vpls.capacity == 0) {
+    inputs.warnings.push_back(inputs.shadow_maps.lights.empty()
+                                  ? "no lamp shines; splatting lights by lamps alone"
+                                  : "no indirect light: no virtual lights were asked for (splatting.vpls)");
+    return lighting;
+  }
   const int bound = boundKind(settings.choice("bound"));
   const Plan plan = planLevels(inputs.gbuffer.width, inputs.gbuffer.height, settings.integer("coarsest"),
                                settings.integer("resolution"));

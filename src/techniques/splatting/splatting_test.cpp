@@ -259,6 +259,7 @@ TEST(Splatting, WhatIsAskedForBadlyHasAnAnswer) {
   }
   lamp.light.intensity = glm::vec3(0.0f);
   EXPECT_EQ(terms(posed, settings({})), 0u);
+  EXPECT_NE(frame.warnings.back().find("no lamp shines"), std::string::npos);
 }
 
 TEST(Splatting, GoldenRoom) {
