@@ -16,6 +16,8 @@ namespace gloam::cli {
 namespace {
 
 constexpr std::array<int, 6> kCounts = {10, 50, 200, 500, 1000, 2000};
+constexpr std::array<int, 6> kCountsBehindOthers = {5,  10, 20, 30,
+                                                    60, 120};  // where spheres stand in each other's light
 constexpr float kRadius = 0.12f, kGroundWidth = 20.0f;
 constexpr int kTurns = 3;  // all numbers in turn, so that a machine that changes its speed changes all
 
@@ -55,7 +57,8 @@ struct Point {
 std::vector<Point> measurePoints(Renderer& renderer, const RenderOptions& options, int frames,
                                  Console& console) {
   std::vector<Point> points;
-  for (const int count : kCounts) points.push_back({.count = count});
+  for (const int count : technique(options.technique).needs_emission ? kCountsBehindOthers : kCounts)
+    points.push_back({.count = count});
   const Progress progress = console.progress();
   const int each = std::max(1, (frames + kTurns - 1) / kTurns);
   double done = 0.0;
