@@ -172,7 +172,9 @@ constexpr Row kSphericalLights[] = {
     {"SL-11", "Beyond: several bounces"},
     {"SL-12", "Beyond: a glossy last bounce"},
     {"SL-13", "Beyond: intersecting spheres handled at run time"},
-    {"SL-14", "Beyond: splatted in image space; blocking by sphere without quadratic cost"},
+    {"SL-14", "Beyond: splatted in image space; blocking by sphere without quadratic cost", kPartly,
+     "splatting", "gloam bench spherical_lights --scaling --spherical_lights.blocking per_sphere",
+     "spherical_lights: KernelsAgreeWithTheirTwins"},
     {"SL-15", "Beyond: articulated deformation with surfaces sampled anew"},
 };
 

@@ -3,7 +3,8 @@
 //
 // Guerrero, Jeschke, Wimmer 2008, "Real-time indirect illumination and soft shadows in dynamic scenes using spherical lights",
 // Figure 2: the pipeline. Differs from the paper: receivers are those of a picture, not vertices; receivers within spheres follow
-// spheres/receiver_rule.h; visibility is a product with one exponential an object, not a difference of two a sphere.
+// spheres/receiver_rule.h; visibility of a sphere is by default exp of a mean log, not a difference of exponentials; ground and walls
+// take part as rectangles.
 #include "techniques/spherical_lights/spherical_lights.h"
 
 #include <algorithm>
