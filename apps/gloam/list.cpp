@@ -39,7 +39,7 @@ void printTechniques(Console& console) {
     console.print(fmt::format("  {:<24}light: {}", "", coverageText(info.covers)));
     for (const Option& option : info.options) {
       const std::string flag = fmt::format("--{}.{}", info.name, option.name);
-      console.print(fmt::format("    {:<24}{} [{}]", flag, option.help, valueText(option.default_value)));
+      console.print(fmt::format("    {:<34}{} [{}]", flag, option.help, valueText(option.default_value)));
     }
   }
 }
