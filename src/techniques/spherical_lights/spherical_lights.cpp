@@ -76,9 +76,10 @@ const std::vector<Option>& options() {
        .default_value = true,
        .help = "light that spheres send; without it, shadows alone"},
       {.name = "window",
-       .default_value = std::string("auto"),
+       .default_value = std::string("none"),
        .choices = {"none", "hann", "lanczos", "auto"},
-       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative"}};
+       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative, "
+               "which takes most of a sun's shadow"}};
   return options;
 }
 
