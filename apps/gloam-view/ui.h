@@ -67,6 +67,8 @@ void label(const char* text, const char* help = nullptr);
 void helpMark(const char* help);
 bool inputPath(const char* id, std::string& text, float width);
 void dim(const std::string& text);
+/// A row of a table of two columns.
+void valueRow(const char* name, const std::string& value);
 /// Controls for every option of a technique, from its table.
 void optionControls(Session& session, Side side);
 

@@ -197,14 +197,7 @@ void inspected(const Drawn& drawn, int x, int y) {
   ImGui::Text("%d, %d", x, y);
   if (!ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit)) return;
   const auto line = [&](const char* name, const std::string& text) {
-    if (text.empty()) return;
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(name);
-    ImGui::PopStyleColor();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
+    if (!text.empty()) valueRow(name, text);
   };
   line("radiance", colorText(layers, "", at));
   for (const char* name : {"direct", "indirect", "albedo", "normal", "depth"})

@@ -11,16 +11,6 @@
 namespace gloam::view {
 namespace {
 
-void row(const char* name, const std::string& value) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextUnformatted(name);
-  ImGui::PopStyleColor();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(value.c_str());
-}
-
 void referenceControls(Session& session) {
   ReferenceChoice& choice = session.reference_choice;
   bool anew = false;
@@ -32,16 +22,16 @@ void referenceControls(Session& session) {
   const ReferenceView* reference = session.reference();
   if (reference == nullptr) return dim("begins when the picture stands still");
   if (!ImGui::BeginTable("errors", 2)) return;
-  row("samples a pixel", std::to_string(reference->samples));
-  row("its noise", fmt::format("{:.2f} %", reference->noise * 100.0));
+  valueRow("samples a pixel", std::to_string(reference->samples));
+  valueRow("its noise", fmt::format("{:.2f} %", reference->noise * 100.0));
   if (reference->error) {
     const Metrics& e = *reference->error;
-    row("relative RMSE", fmt::format("{:.2f} %", e.relative_rmse * 100.0));
-    row("gained or lost", fmt::format("{:+.2f} %", e.relative_signed_error * 100.0));
-    row("FLIP", fmt::format("{:.3f}", e.flip));
-    row("SSIM", fmt::format("{:.3f}", e.ssim));
+    valueRow("relative RMSE", fmt::format("{:.2f} %", e.relative_rmse * 100.0));
+    valueRow("gained or lost", fmt::format("{:+.2f} %", e.relative_signed_error * 100.0));
+    valueRow("FLIP", fmt::format("{:.3f}", e.flip));
+    valueRow("SSIM", fmt::format("{:.3f}", e.ssim));
   }
-  row("traced", fmt::format("{:.1f} s", reference->seconds));
+  valueRow("traced", fmt::format("{:.1f} s", reference->seconds));
   ImGui::EndTable();
 }
 

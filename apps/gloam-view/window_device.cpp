@@ -250,4 +250,18 @@ void WindowDevice::destroy(Image& image) const {
   --live_;
 }
 
+void moveLayout(const VulkanTable& vk, VkCommandBuffer commands, VkImage image, VkImageLayout from,
+                VkImageLayout to, VkAccessFlags before, VkAccessFlags after, VkPipelineStageFlags source,
+                VkPipelineStageFlags target) {
+  VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+  barrier.srcAccessMask = before;
+  barrier.dstAccessMask = after;
+  barrier.oldLayout = from;
+  barrier.newLayout = to;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  vk.CmdPipelineBarrier(commands, source, target, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+}
+
 }  // namespace gloam::view

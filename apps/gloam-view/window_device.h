@@ -74,6 +74,11 @@ class WindowDevice {
   mutable int live_ = 0;
 };
 
+/// Moves a colour image of one level and layer from one layout to another, between the stages and accesses given.
+void moveLayout(const VulkanTable& vk, VkCommandBuffer commands, VkImage image, VkImageLayout from,
+                VkImageLayout to, VkAccessFlags before, VkAccessFlags after, VkPipelineStageFlags source,
+                VkPipelineStageFlags target);
+
 /// Messages of the validation layer about the window, since the process began (GLOAM_VALIDATION=1).
 int windowValidationMessages();
 

@@ -10,20 +10,6 @@ namespace {
 
 constexpr std::uint64_t kForever = ~std::uint64_t(0);
 
-void moveLayout(const VulkanTable& vk, VkCommandBuffer commands, VkImage image, VkImageLayout from,
-                VkImageLayout to, VkAccessFlags before, VkAccessFlags after, VkPipelineStageFlags source,
-                VkPipelineStageFlags target) {
-  VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-  barrier.srcAccessMask = before;
-  barrier.dstAccessMask = after;
-  barrier.oldLayout = from;
-  barrier.newLayout = to;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  vk.CmdPipelineBarrier(commands, source, target, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-}
-
 float srgbDecode(float signal) {
   return signal <= 0.04045f ? signal / 12.92f : std::pow((signal + 0.055f) / 1.055f, 2.4f);
 }

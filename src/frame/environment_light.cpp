@@ -16,6 +16,12 @@ constexpr float kLargestHalf = 65504.0f;
 constexpr int kGlossSide = kGlossSize + 2;
 }  // namespace
 
+Window windowNamed(const std::string& name) {
+  if (name == "hann") return Window::kHann;
+  if (name == "lanczos") return Window::kLanczos;
+  return name == "auto" ? Window::kAuto : Window::kNone;
+}
+
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window) {
   const sh::ShRgb bands = sh::truncated(light, order);
   switch (window) {

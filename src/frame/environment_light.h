@@ -11,6 +11,8 @@ namespace gloam::frame {
 
 /// How a light's ringing is damped before it is used (SH-9).
 enum class Window : std::uint8_t { kNone, kHann, kLanczos, kAuto };
+/// Of the options' words: hann, lanczos, auto; kNone for any other.
+Window windowNamed(const std::string& name);
 /// The light's first `order` bands, windowed: Hann and Lanczos over width order, kAuto as little as keeps it
 /// non-negative.
 sh::ShRgb windowed(const sh::ShRgb& light, int order, Window window);

@@ -13,6 +13,7 @@
 #include "scene/painted_patterns.h"
 #include "scene/painted_textures.h"
 #include "scene/sampled_motion.h"
+#include "scene/turns.h"
 
 namespace gloam {
 namespace {
@@ -134,7 +135,6 @@ Elbow elbowFor(const Wrist& wrist) {
 void addArm(SceneBuilder& builder, const Detail& detail) {
   const int paint = addBelts(builder, "arm paint", {0.78f, 0.34f, 0.03f}, {0.08f, 0.08f, 0.09f}, 2);
   const int dark = builder.diffuse("arm joints", {0.09f, 0.095f, 0.11f});
-  const auto turnX = [](float rad) { return glm::angleAxis(rad, glm::vec3(1, 0, 0)); };
   const auto bone = [&](const std::string& name, float length, float radius, int parent,
                         const glm::vec3& at) {
     const int node = builder.node(name, parent, at);
@@ -156,13 +156,13 @@ void addArm(SceneBuilder& builder, const Detail& detail) {
   addTurning(builder, turret, kSeconds,
              [](float t) { return glm::angleAxis(wristAt(t).turn_rad, glm::vec3(0, 1, 0)); });
   addTurning(builder, upper, kSeconds,
-             [=](float t) { return turnX(-elbowFor(wristAt(t)).upper_rad - 0.5f * kPi); });
+             [=](float t) { return aboutX(-elbowFor(wristAt(t)).upper_rad - 0.5f * kPi); });
   addTurning(builder, fore, kSeconds, [=](float t) {
     const Elbow elbow = elbowFor(wristAt(t));
-    return turnX(elbow.upper_rad - elbow.fore_rad);
+    return aboutX(elbow.upper_rad - elbow.fore_rad);
   });
   addTurning(builder, grip, kSeconds,
-             [=](float t) { return turnX(elbowFor(wristAt(t)).fore_rad + 0.5f * kPi); });
+             [=](float t) { return aboutX(elbowFor(wristAt(t)).fore_rad + 0.5f * kPi); });
 }
 
 /// A head falls from the pipe, bounces once and stays.

@@ -11,6 +11,7 @@
 #include "scene/painted_patterns.h"
 #include "scene/painted_textures.h"
 #include "scene/sampled_motion.h"
+#include "scene/turns.h"
 
 namespace gloam {
 namespace {
@@ -18,16 +19,6 @@ namespace {
 constexpr float kPi = 3.14159265f;
 constexpr float kSeconds = 4.0f;
 constexpr float kAnkle_m = 0.09f, kLeg_m = 0.31f;  // thigh and shin are of one length
-
-glm::quat aboutX(float rad) {
-  return glm::angleAxis(rad, glm::vec3(1, 0, 0));
-}
-glm::quat aboutY(float rad) {
-  return glm::angleAxis(rad, glm::vec3(0, 1, 0));
-}
-glm::quat aboutZ(float rad) {
-  return glm::angleAxis(rad, glm::vec3(0, 0, 1));
-}
 
 struct Paints {
   int enamel, accent, rubber, dial, face;

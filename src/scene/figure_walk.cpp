@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/figure.h"
+#include "scene/turns.h"
 
 namespace gloam::figure {
 namespace {
@@ -19,15 +20,6 @@ constexpr float kLeavePitch_rad = 0.72f;  // heel up
 constexpr float kTrack_m = 0.075f;        // of each foot from the line of the walk
 constexpr float kPelvisDrop_m = 0.035f;   // knees are never quite straight
 
-glm::quat aboutX(float rad) {
-  return glm::angleAxis(rad, glm::vec3(1, 0, 0));
-}
-glm::quat aboutY(float rad) {
-  return glm::angleAxis(rad, glm::vec3(0, 1, 0));
-}
-glm::quat aboutZ(float rad) {
-  return glm::angleAxis(rad, glm::vec3(0, 0, 1));
-}
 glm::vec3 rest(Joint joint) {
   return joints()[joint].position;
 }

@@ -17,12 +17,6 @@ namespace gloam::proxies {
 
 namespace {
 
-frame::Window windowOf(const std::string& name) {
-  if (name == "hann") return frame::Window::kHann;
-  if (name == "lanczos") return frame::Window::kLanczos;
-  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
-}
-
 int indirectKind(const std::string& name) {
   if (name == "point") return kIndirectPoint;
   if (name == "averaged") return kIndirectAveraged;
@@ -229,8 +223,8 @@ const Reach& Proxies::reachFor(const ProxyLight& light) {
 frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                 const Settings& settings) {
   if (inputs.environment.empty()) return {};
-  const ProxyLight light =
-      proxyLight(frame::windowed(inputs.environment.sh(), kShadowOrder, windowOf(settings.choice("window"))));
+  const ProxyLight light = proxyLight(
+      frame::windowed(inputs.environment.sh(), kShadowOrder, frame::windowNamed(settings.choice("window"))));
   const std::string upsample = settings.choice("upsample");
   const std::string coverage = settings.choice("coverage");
   const Reach reach = coverage == "light" ? reachFor(light) : kFixedReach;

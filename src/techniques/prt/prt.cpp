@@ -22,8 +22,7 @@ namespace {
 
 /// Of the whole light; "auto" damps vertex by vertex (prt_vertices.comp.glsl).
 frame::Window windowOf(const std::string& name) {
-  if (name == "hann") return frame::Window::kHann;
-  return name == "lanczos" ? frame::Window::kLanczos : frame::Window::kNone;
+  return name == "auto" ? frame::Window::kNone : frame::windowNamed(name);
 }
 
 /// The light in each lit instance's axes is added, end to end.
@@ -239,8 +238,7 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   if (!inputs.scene.volumes().empty()) {
     const std::string& window = settings.choice("window");
     lighting.volumes = volumesFor(inputs, settings.integer("order"))
-                           .record(graph, inputs, window == "auto" ? frame::Window::kAuto : windowOf(window),
-                                   settings.flag("indirect"));
+                           .record(graph, inputs, frame::windowNamed(window), settings.flag("indirect"));
   }
   return lighting;
 }

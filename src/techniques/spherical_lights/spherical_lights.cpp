@@ -20,12 +20,6 @@ namespace {
 
 constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
 
-frame::Window windowOf(const std::string& name) {
-  if (name == "hann") return frame::Window::kHann;
-  if (name == "lanczos") return frame::Window::kLanczos;
-  return name == "auto" ? frame::Window::kAuto : frame::Window::kNone;
-}
-
 int blockingOf(const Settings& settings) {
   if (settings.choice("blocking") == "per_object") return kPerObject;
   return settings.flag("reuse") ? kPerSphereReused : kPerSphere;
@@ -257,7 +251,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       "spherical_lights.patch_radiance", gpu::BufferDesc{.bytes = std::max(1u, patches) * sizeof(glm::vec3)});
   if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
   const sh::ShRgb light =
-      frame::windowed(inputs.environment.sh(), kEmissionOrder, windowOf(settings.choice("window")));
+      frame::windowed(inputs.environment.sh(), kEmissionOrder, frame::windowNamed(settings.choice("window")));
   LightRows row = lightRows(light);
   std::ranges::copy(log_fit_[0], row.log_fit);
   std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
