@@ -23,6 +23,15 @@ inline PosedCamera cameraAt(const glm::vec3& eye, const glm::vec3& target, float
   return camera;
 }
 
+/// A grey ground of 20 x 20 under a sky, and a look at it from above.
+inline Scene planeScene(const char* sky) {
+  SceneBuilder builder("plane");
+  builder.place("ground", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)));
+  builder.sky(sky);
+  return builder.finish();
+}
+inline const PosedCamera kAbove = cameraAt({0, 9, 0.01f}, {0, 0, 0}, 40);
+
 /// A scene on the device and the frames drawn of it.
 struct TestFrame {
   explicit TestFrame(const Scene& scene)

@@ -12,6 +12,7 @@
 #include "shaders/proxies_shaders.h"
 #include "techniques/proxies/proxies_accumulate.h"
 #include "techniques/proxies/proxies_tables.h"
+#include "techniques/sphere_options.h"
 
 namespace gloam::proxies {
 
@@ -31,16 +32,8 @@ int exponentialKind(const std::string& name) {
 
 const std::vector<Option>& options() {
   static const std::vector<Option> options = {
-      {.name = "spheres",
-       .default_value = 0,
-       .minimum = 0,
-       .maximum = 4096,
-       .help = "spheres that stand for all that casts, when they are made for this picture; 0: by size and "
-               "shape, 26 or more"},
-      {.name = "divisor",
-       .default_value = std::string("4"),
-       .choices = {"1", "2", "4", "8"},
-       .help = "light is computed for one receiver in a square of that many pixels a side"},
+      spheresOption(),
+      divisorOption(),
       {.name = "upsample",
        .default_value = std::string("normal"),
        .choices = {"normal", "field", "shaded", "bilinear"},
@@ -70,12 +63,7 @@ const std::vector<Option>& options() {
       {.name = "normalise",
        .default_value = true,
        .help = "scale light of proxies that overlap by the solid angle that they fill together"},
-      {.name = "window",
-       .default_value = std::string("none"),
-       .choices = {"none", "hann", "lanczos", "auto"},
-       .help =
-           "damping of the light against ringing; auto: as little as keeps light non-negative, which takes "
-           "most of a sun's shadow"}};
+      windowOption()};
   return options;
 }
 

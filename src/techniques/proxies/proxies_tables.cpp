@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "frame/field_shade.h"
 #include "math/sh_log_exp.h"
 
 namespace gloam::proxies {
@@ -28,11 +29,7 @@ void basisAtAzimuth0(double x, double z, double y[3][3]) {
 std::vector<glm::vec4> logVisibilityTable() {
   const sh::LogBlockerTable table = sh::makeLogBlockerTable(kShadowOrder, kLogEntries);
   std::vector<glm::vec4> rows;
-  for (const sh::Zh& entry : table.entries) {
-    glm::vec4 row;
-    for (int l = 0; l < kShadowOrder; ++l) row[l] = entry[l] * sh::zonalFactor(l);
-    rows.push_back(row);
-  }
+  for (const sh::Zh& entry : table.entries) rows.push_back(frame::bandFactors(entry));
   return rows;
 }
 
@@ -130,17 +127,7 @@ ProxyLight proxyLight(const sh::ShRgb& light) {
   row.tensor[3] = b * row.leaving[4];
   row.tensor[4] = b * row.leaving[5];
   row.tensor[5] = b * row.leaving[7];
-  for (int channel = 0; channel < 3; ++channel) {
-    sh::Sh one(light.order);
-    for (int i = 0; i < light.size(); ++i) one[i] = light[i][channel];
-    const sh::ShMatrix matrix = sh::productMatrix(one, kIndirectOrder, kShadowOrder);
-    for (int i = 0; i < 16; ++i) {
-      for (int j = 0; j < 9; ++j) {
-        const int band = j == 0 ? 0 : j < 4 ? 1 : 2;
-        row.shade[9 * i + j][channel] = matrix.at(i, j) * sh::clampedCosineFactor(band);
-      }
-    }
-  }
+  frame::shadeRows(light, row.shade);
   return row;
 }
 

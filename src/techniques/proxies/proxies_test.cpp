@@ -47,15 +47,6 @@ Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<fr
           frame.floats("proxies.normalisation")};
 }
 
-Scene planeScene(const char* sky) {
-  SceneBuilder builder("plane");
-  builder.place("ground", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)));
-  builder.sky(sky);
-  return builder.finish();
-}
-
-const PosedCamera kAbove = frame::cameraAt({0, 9, 0.01f}, {0, 0, 0}, 40);
-
 /// What the receiver gets by sums written out: the slow twin of the whole pipeline for one sphere, its blocker as the
 /// projection itself, no logarithm.
 glm::vec3 irradianceBehindOne(const sh::ShRgb& light, const glm::vec3& p, const glm::vec3& n,
@@ -75,9 +66,9 @@ glm::vec3 irradianceBehindOne(const sh::ShRgb& light, const glm::vec3& p, const 
 }
 
 TEST(Proxies, OneSphereOverAPlaneIsTheProjectionOfItsShadow) {
-  const Scene scene = planeScene("preetham?elevation=40");
+  const Scene scene = frame::planeScene("preetham?elevation=40");
   const frame::Proxy sphere{{0.3f, 1.2f, -0.2f}, 0.7f, glm::vec3(0.5f)};
-  const Picture picture = draw(scene, kAbove, {sphere}, {{"coverage", "all"}});
+  const Picture picture = draw(scene, frame::kAbove, {sphere}, {{"coverage", "all"}});
   const sh::ShRgb light = sh::truncated(projectEnvironment(scene.environment, 6), 4);
   const glm::vec3 open = sh::irradiance(light, {0, 1, 0});
   double wrong = 0.0, all = 0.0;
@@ -95,11 +86,11 @@ TEST(Proxies, OneSphereOverAPlaneIsTheProjectionOfItsShadow) {
 
 // Under a white sky a white sphere sends to each receiver what it takes.
 TEST(Proxies, OneWhiteSphereInTheWhiteFurnaceIsNotSeen) {
-  Scene scene = planeScene("uniform");
-  const Picture empty = draw(scene, kAbove, {});
+  Scene scene = frame::planeScene("uniform");
+  const Picture empty = draw(scene, frame::kAbove, {});
   const frame::Proxy sphere{{0.0f, 1.5f, 0.0f}, 0.8f, glm::vec3(1.0f)};
   for (const char* kind : {"averaged", "point", "exact"}) {
-    const Picture picture = draw(scene, kAbove, {sphere}, {{"indirect", kind}, {"coverage", "all"}});
+    const Picture picture = draw(scene, frame::kAbove, {sphere}, {{"indirect", kind}, {"coverage", "all"}});
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
       const float sum = picture.direct[4 * i] + picture.indirect[4 * i];
       ASSERT_NEAR(sum / empty.direct[4 * i], 1.0f, 0.02f) << kind;
@@ -108,20 +99,21 @@ TEST(Proxies, OneWhiteSphereInTheWhiteFurnaceIsNotSeen) {
 }
 
 TEST(Proxies, NormalisationOfOneSphereIsOne) {
-  const Scene scene = planeScene("uniform");
+  const Scene scene = frame::planeScene("uniform");
   for (const float height : {1.4f, 2.0f, 2.8f, 6.0f}) {  // sine 0.6 below the first
     const frame::Proxy sphere{{0.0f, height, 0.0f}, 0.84f, glm::vec3(0.5f)};
-    const Picture picture = draw(scene, kAbove, {sphere}, {{"coverage", "all"}});
+    const Picture picture = draw(scene, frame::kAbove, {sphere}, {{"coverage", "all"}});
     for (const float share : picture.normalisation) ASSERT_NEAR(share, 1.0f, 0.01f) << height;
   }
 }
 
 // Spheres that overlap many times over send back no more than they take together.
 TEST(Proxies, OverlappingProxiesSendNoMoreThanTheyBlock) {
-  const Scene scene = planeScene("uniform");
+  const Scene scene = frame::planeScene("uniform");
   const frame::Proxy sphere{{0.0f, 2.0f, 0.0f}, 0.8f, glm::vec3(1.0f)};
-  const Picture open = draw(scene, kAbove, {});
-  const Picture many = draw(scene, kAbove, std::vector<frame::Proxy>(20, sphere), {{"coverage", "all"}});
+  const Picture open = draw(scene, frame::kAbove, {});
+  const Picture many =
+      draw(scene, frame::kAbove, std::vector<frame::Proxy>(20, sphere), {{"coverage", "all"}});
   float most = 0.0f;
   for (std::size_t i = 0; i < open.pixels(); ++i) {
     const float sum = many.direct[4 * i] + many.indirect[4 * i];
@@ -144,13 +136,13 @@ std::vector<frame::Proxy> crowd(int count) {
 
 TEST(Proxies, CoverageOracleChangesThePictureByAtMostFourOf256) {
   for (const char* sky : {"preetham?elevation=25", "gradient"}) {
-    const Scene scene = planeScene(sky);
-    const Picture all = draw(scene, kAbove, crowd(16), {{"coverage", "all"}});
+    const Scene scene = frame::planeScene(sky);
+    const Picture all = draw(scene, frame::kAbove, crowd(16), {{"coverage", "all"}});
     glm::vec3 open(0.0f);  // the brightest shade
     for (const glm::vec3& n : sampling::fibonacciSphere(500))
       open = glm::max(open, sh::irradiance(projectEnvironment(scene.environment, 3), n));
     for (const char* coverage : {"fixed", "light"}) {
-      const Picture picture = draw(scene, kAbove, crowd(16), {{"coverage", coverage}});
+      const Picture picture = draw(scene, frame::kAbove, crowd(16), {{"coverage", coverage}});
       for (std::size_t i = 0; i < all.direct.size(); ++i) {
         const float most = open[int(std::min(i % 4, std::size_t(2)))] * 4.0f / 256.0f;
         ASSERT_NEAR(picture.direct[i], all.direct[i], most) << sky << ' ' << coverage;
@@ -162,11 +154,12 @@ TEST(Proxies, CoverageOracleChangesThePictureByAtMostFourOf256) {
 
 // Splats and lists of tiles are the same sum, from anywhere: above, from within the spheres of influence, and in parallel.
 TEST(Proxies, SplatsAndTilesShowTheSamePicture) {
-  const Scene scene = planeScene("preetham?elevation=25");
+  const Scene scene = frame::planeScene("preetham?elevation=25");
   PosedCamera parallel = frame::cameraAt({1, 9, 4}, {0, 0, 0});
   parallel.camera.perspective = false;
   parallel.camera.half_height = 3.0f;
-  const PosedCamera cameras[] = {kAbove, frame::cameraAt({0.4f, 0.7f, 0.3f}, {-3, 0, 1}, 70), parallel};
+  const PosedCamera cameras[] = {frame::kAbove, frame::cameraAt({0.4f, 0.7f, 0.3f}, {-3, 0, 1}, 70),
+                                 parallel};
   for (const char* coverage : {"fixed", "light", "all"}) {
     for (const PosedCamera& camera : cameras) {
       for (const char* divisor : {"1", "4"}) {
@@ -189,11 +182,12 @@ TEST(Proxies, SplatsAndTilesShowTheSamePicture) {
 }
 
 TEST(Proxies, SplatsOfNothingAndWithoutIndirectLight) {
-  const Scene scene = planeScene("uniform");
-  const Picture open = draw(scene, kAbove, {}), none = draw(scene, kAbove, {}, {{"accumulate", "splat"}});
+  const Scene scene = frame::planeScene("uniform");
+  const Picture open = draw(scene, frame::kAbove, {}),
+                none = draw(scene, frame::kAbove, {}, {{"accumulate", "splat"}});
   EXPECT_EQ(open.direct, none.direct);
-  const Picture tiles = draw(scene, kAbove, crowd(8), {{"indirect", "off"}});
-  const Picture splat = draw(scene, kAbove, crowd(8), {{"indirect", "off"}, {"accumulate", "splat"}});
+  const Picture tiles = draw(scene, frame::kAbove, crowd(8), {{"indirect", "off"}});
+  const Picture splat = draw(scene, frame::kAbove, crowd(8), {{"indirect", "off"}, {"accumulate", "splat"}});
   for (std::size_t i = 0; i < tiles.direct.size(); ++i) ASSERT_NEAR(splat.direct[i], tiles.direct[i], 2e-3f);
   for (std::size_t i = 0; i < splat.indirect.size(); i += 4) ASSERT_EQ(splat.indirect[i], 0.0f);
 }
@@ -224,11 +218,11 @@ glm::vec3 irradianceFromOne(const sh::ShRgb& light, const glm::vec3& p, const gl
 // What a sphere sends to a plane: all light that leaves towards it, summed by directions. What differs are three bands of the cosine
 // and the disc; and of the point-sampled operator that the side towards the plane is not all of what is seen.
 TEST(Proxies, OperatorsAgreeWithTheSumOverDirections) {
-  const Scene scene = planeScene("preetham?elevation=40");
+  const Scene scene = frame::planeScene("preetham?elevation=40");
   const frame::Proxy ball{{0.3f, 1.6f, -0.2f}, 0.8f, glm::vec3(1.0f)};
   const sh::ShRgb light = sh::truncated(projectEnvironment(scene.environment, 6), 4);
   const auto error = [&](const char* kind) {
-    const Picture picture = draw(scene, kAbove, {ball}, {{"indirect", kind}, {"coverage", "all"}});
+    const Picture picture = draw(scene, frame::kAbove, {ball}, {{"indirect", kind}, {"coverage", "all"}});
     double wrong = 0.0, all = 0.0;
     for (std::size_t i = 0; i < picture.pixels(); i += 7) {
       const glm::vec3 want =
@@ -265,10 +259,10 @@ TEST(Proxies, WellFittedSphereDoesNotBlackenItself) {
 }
 
 TEST(Proxies, ExponentialsAgree) {
-  const Scene scene = planeScene("preetham?elevation=40");
-  const Picture want = draw(scene, kAbove, crowd(40));
+  const Scene scene = frame::planeScene("preetham?elevation=40");
+  const Picture want = draw(scene, frame::kAbove, crowd(40));
   const auto worst = [&](const char* name) {
-    const Picture got = draw(scene, kAbove, crowd(40), {{"exponential", name}});
+    const Picture got = draw(scene, frame::kAbove, crowd(40), {{"exponential", name}});
     float difference = 0.0f, brightest = 0.0f;
     for (std::size_t i = 0; i < want.direct.size(); ++i) {
       if (i % 4 == 3) continue;
@@ -283,8 +277,9 @@ TEST(Proxies, ExponentialsAgree) {
 }
 
 TEST(Proxies, ManyProxiesAndTheSamePictureTwice) {
-  const Scene scene = planeScene("gradient");
-  const Picture first = draw(scene, kAbove, crowd(2000)), second = draw(scene, kAbove, crowd(2000));
+  const Scene scene = frame::planeScene("gradient");
+  const Picture first = draw(scene, frame::kAbove, crowd(2000)),
+                second = draw(scene, frame::kAbove, crowd(2000));
   EXPECT_EQ(first.direct, second.direct);
   EXPECT_EQ(first.indirect, second.indirect);
   for (const float value : first.direct) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
@@ -317,7 +312,7 @@ double relativeError(const std::vector<float>& got, const std::vector<float>& wa
 
 // On one plane, however slanted, all four receivers count: the same picture as by bilinear weights, no bands.
 TEST(Proxies, SlantedGroundIsUpsampledAsSmoothlyAsAPicture) {
-  const Scene scene = planeScene("preetham?elevation=40");
+  const Scene scene = frame::planeScene("preetham?elevation=40");
   const std::vector<frame::Proxy> proxies = {{{0.0f, 0.5f, 0.5f}, 0.4f, glm::vec3(0.5f)}};
   PosedCamera parallel = frame::cameraAt({0, 0.8f, 3}, {0, 0, 1});
   parallel.camera.perspective = false;
@@ -358,8 +353,8 @@ TEST(Proxies, CoarseReceiversShowTheSamePicture) {
 }
 
 TEST(Proxies, WithoutProxiesItIsUnshadowedAndWithoutLightDark) {
-  Scene scene = planeScene("preetham?elevation=40");
-  const Picture picture = draw(scene, kAbove, {});
+  Scene scene = frame::planeScene("preetham?elevation=40");
+  const Picture picture = draw(scene, frame::kAbove, {});
   const glm::vec3 want = sh::irradiance(projectEnvironment(scene.environment, 4), {0, 1, 0});
   for (std::size_t i = 0; i < picture.pixels(); ++i) {
     for (int c = 0; c < 3; ++c)
@@ -370,7 +365,7 @@ TEST(Proxies, WithoutProxiesItIsUnshadowedAndWithoutLightDark) {
   frame::TestFrame frame(scene);
   Proxies technique(gpu::testDevice());
   const frame::FrameImages images =
-      frame.draw(pose(scene, 0.0f), kAbove, {.width = 8, .height = 8},
+      frame.draw(pose(scene, 0.0f), frame::kAbove, {.width = 8, .height = 8},
                  [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                    return technique.record(graph, inputs, Settings(info().options));
                  });

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 
+#include "frame/field_shade.h"
 #include "shaders/spherical_lights_shaders.h"
+#include "techniques/sphere_options.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
 #include "techniques/spherical_lights/spherical_lights_rows.h"
 #include "techniques/spherical_lights/spherical_lights_tables.h"
@@ -27,16 +29,8 @@ int blockingOf(const Settings& settings) {
 
 const std::vector<Option>& options() {
   static const std::vector<Option> options = {
-      {.name = "spheres",
-       .default_value = 0,
-       .minimum = 0,
-       .maximum = 4096,
-       .help = "spheres that stand for all that casts, when they are made for this picture; 0: by size and "
-               "shape, 26 or more"},
-      {.name = "divisor",
-       .default_value = std::string("4"),
-       .choices = {"1", "2", "4", "8"},
-       .help = "light is computed for one receiver in a square of that many pixels a side"},
+      spheresOption(),
+      divisorOption(),
       {.name = "blocking",
        .default_value = std::string("per_object"),
        .choices = {"per_object", "per_sphere"},
@@ -69,11 +63,7 @@ const std::vector<Option>& options() {
       {.name = "indirect",
        .default_value = true,
        .help = "light that spheres send; without it, shadows alone"},
-      {.name = "window",
-       .default_value = std::string("none"),
-       .choices = {"none", "hann", "lanczos", "auto"},
-       .help = "damping of ringing around small bright lights; auto: as little as keeps light non-negative, "
-               "which takes most of a sun's shadow"}};
+      windowOption()};
   return options;
 }
 
@@ -252,7 +242,8 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
   const sh::ShRgb light =
       frame::windowed(inputs.environment.sh(), kEmissionOrder, frame::windowNamed(settings.choice("window")));
-  LightRows row = lightRows(light);
+  LightRows row{};
+  frame::shadeRows(light, row.shade);
   std::ranges::copy(log_fit_[0], row.log_fit);
   std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
   std::ranges::copy(settings.choice("average") == "area" ? area_fit_ : solid_angle_fit_, row.average_fit);

@@ -42,12 +42,12 @@ vec4 logWeights(float sin_half_angle) {
   float t = shLogBlockerCoordinate(sin_half_angle);
   bool high = t > kLogSplit;
   float x = high ? 2.0 * (t - kLogSplit) / (1.0 - kLogSplit) - 1.0 : 2.0 * t / kLogSplit - 1.0;
-#define GLOAM_LOG(i) (high ? light.rows.log_fit[kFitTerms + i] : light.rows.log_fit[i])
+#define GLOAM_LOG(i) (high ? light.row.log_fit[kFitTerms + i] : light.row.log_fit[i])
   return sin_half_angle * sin_half_angle * GLOAM_FIT(GLOAM_LOG, x);
 }
 vec4 averageWeights(float sin_half_angle) {
   float x = 2.0 * shLogBlockerCoordinate(sin_half_angle) - 1.0;
-#define GLOAM_AVERAGE(i) light.rows.average_fit[i]
+#define GLOAM_AVERAGE(i) light.row.average_fit[i]
   return GLOAM_FIT(GLOAM_AVERAGE, x);
 }
 

@@ -8,7 +8,7 @@
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
-#include "techniques/spherical_lights/spherical_lights_shade.glsl"
+#include "frame/field_shade.glsl"
 
 /// The group (object, or sphere) that follows in order of its centre's distance, equal ones by number.
 uint nextGroup(vec3 position, inout float key, uint last) {

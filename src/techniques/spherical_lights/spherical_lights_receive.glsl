@@ -10,7 +10,7 @@
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
-#include "techniques/spherical_lights/spherical_lights_shade.glsl"
+#include "frame/field_shade.glsl"
 
 /// Mean over a disc of the logs of those of its object that stand before it and do not meet it; `bands`: of a mean over the disc.
 float logWithin(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {

@@ -20,7 +20,7 @@ layout(scalar, set = 0, binding = 2) readonly buffer Objects { ObjectRow at[]; }
 layout(scalar, set = 0, binding = 3) readonly buffer Sent { SentRow at[]; } sent;
 layout(scalar, set = 0, binding = 4) readonly buffer Glow { SentRow at[]; } glow;
 layout(scalar, set = 0, binding = 5) readonly buffer Meets { uint at[]; } meets;
-layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows rows; } light;
+layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows row; } light;
 layout(scalar, set = 0, binding = 9) writeonly buffer Arriving { vec3 at[]; } arriving;
 layout(scalar, set = 0, binding = 20) readonly buffer BlockingPatches { PatchRow at[]; } blocking_patches;
 layout(scalar, set = 0, binding = 21) readonly buffer SendingPatches { PatchRow at[]; } sending_patches;

@@ -12,7 +12,7 @@ layout(scalar, set = 0, binding = 2) readonly buffer Spheres { SphereRow at[]; }
 layout(scalar, set = 0, binding = 3) readonly buffer Objects { ObjectRow at[]; } objects;
 layout(scalar, set = 0, binding = 4) readonly buffer Sent { SentRow at[]; } sent;
 layout(scalar, set = 0, binding = 13) readonly buffer Glow { SentRow at[]; } glow;
-layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows rows; } light;
+layout(scalar, set = 0, binding = 8) uniform LightBlock { LightRows row; } light;
 layout(set = 0, binding = 9) uniform writeonly image2D direct;
 layout(set = 0, binding = 10) uniform writeonly image2D indirect;
 layout(set = 0, binding = 11) uniform writeonly image2D visibility;

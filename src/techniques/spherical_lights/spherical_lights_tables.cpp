@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/field_shade.h"
 #include "math/sh_log_exp.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
 
@@ -108,10 +109,7 @@ glm::vec4 averageWeights(Average average, float sin_half_angle) {
 }
 
 glm::vec4 logWeights(float sin_half_angle) {
-  const sh::Zh log = sh::logBlocker(kOrder, std::asin(std::clamp(sin_half_angle, 0.0f, 1.0f)));
-  glm::vec4 weights;
-  for (int l = 0; l < kOrder; ++l) weights[l] = log[l] * sh::zonalFactor(l);
-  return weights;
+  return frame::bandFactors(sh::logBlocker(kOrder, std::asin(std::clamp(sin_half_angle, 0.0f, 1.0f))));
 }
 
 namespace {
@@ -172,22 +170,6 @@ glm::vec4 logFitted(const LogFit& fit, float sin_half_angle) {
 glm::vec4 discWeights(float a) {
   const float a2 = a * a, c2 = std::max(0.0f, 1.0f - a2), c = std::sqrt(c2), pi = float(kPi);
   return {2.0f * pi * a2 / (1.0f + c), pi * a2, pi * a2 * c, 0.25f * pi * a2 * (5.0f * c2 - 1.0f)};
-}
-
-LightRows lightRows(const sh::ShRgb& light) {
-  LightRows rows{};
-  for (int channel = 0; channel < 3; ++channel) {
-    sh::Sh one(light.order);
-    for (int i = 0; i < light.size(); ++i) one[i] = light[i][channel];
-    const sh::ShMatrix matrix = sh::productMatrix(one, 3, kOrder);
-    for (int i = 0; i < 16; ++i) {
-      for (int j = 0; j < 9; ++j) {
-        const int band = j == 0 ? 0 : j < 4 ? 1 : 2;
-        rows.shade[9 * i + j][channel] = matrix.at(i, j) * sh::clampedCosineFactor(band);
-      }
-    }
-  }
-  return rows;
 }
 
 void bandRotation(const glm::mat3& matrix, float out[83]) {

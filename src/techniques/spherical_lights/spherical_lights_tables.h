@@ -36,9 +36,6 @@ glm::vec4 logFitted(const LogFit& fit, float sin_half_angle);
 /// D_l = 2 pi times the integral of P_l over the disc: V . f = sum over l of D_l sum over m of f_lm y_lm(to the sphere).
 glm::vec4 discWeights(float sin_half_angle);
 
-/// Q[9 i + j]: irradiance through a visibility O = sum of O_i Q_ij y_j(N). `light` has four bands.
-LightRows lightRows(const sh::ShRgb& light);
-
 /// Coefficients of four bands by which functions turn (bands 1 to 3, rows of 3, 5, 7): f'_i = sum of D_ij f_j.
 void bandRotation(const glm::mat3& matrix, float out[83]);
 

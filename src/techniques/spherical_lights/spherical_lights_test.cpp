@@ -92,15 +92,6 @@ Picture draw(const Scene& scene, const PosedCamera& camera, const Balls& balls, 
           frame.warnings};
 }
 
-Scene planeScene(const char* sky) {
-  SceneBuilder builder("plane");
-  builder.place("ground", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)));
-  builder.sky(sky);
-  return builder.finish();
-}
-
-const PosedCamera kAbove = frame::cameraAt({0, 9, 0.01f}, {0, 0, 0}, 40);
-
 /// Three objects: a chain of three, a single ball, a pair that does not meet.
 std::vector<Balls::Ball> company() {
   return {{{-1.5f, 0.8f, 0.2f}, 0.5f, {0.8f, 0.2f, 0.1f}, 0},
@@ -112,7 +103,7 @@ std::vector<Balls::Ball> company() {
 }
 
 TEST(SphericalLights, KernelsAgreeWithTheirTwins) {
-  const Scene scene = planeScene("preetham?elevation=35");
+  const Scene scene = frame::planeScene("preetham?elevation=35");
   const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), 0.9f, glm::normalize(glm::vec3(1, 2, -1))));
   Balls balls(company(), turn);
   balls.emission.blocking_patches = {{{0, 0, 0}, {10, 0, 0}, {0, 0, -10}, {0, 1, 0}, glm::vec3(0.5f)},
@@ -134,7 +125,7 @@ TEST(SphericalLights, KernelsAgreeWithTheirTwins) {
     Twin twin(rows, light, way.average == std::string("area") ? Average::kArea : Average::kSolidAngle,
               way.mode, way.kind);
     for (std::size_t s = 0; s < balls.proxies.size(); ++s) twin.turn(s, turn);
-    const Picture picture = draw(scene, kAbove, balls,
+    const Picture picture = draw(scene, frame::kAbove, balls,
                                  {{"average", way.average},
                                   {"blocking", way.blocking},
                                   {"reuse", way.reuse},
@@ -164,12 +155,13 @@ TEST(SphericalLights, KernelsAgreeWithTheirTwins) {
 
 // Under a white sky a white ball sends to each receiver what it takes.
 TEST(SphericalLights, OneWhiteBallInTheWhiteFurnaceIsNotSeen) {
-  const Scene scene = planeScene("uniform");
-  const Picture empty = draw(scene, kAbove, Balls({}));
+  const Scene scene = frame::planeScene("uniform");
+  const Picture empty = draw(scene, frame::kAbove, Balls({}));
   const Balls balls({{{0.0f, 1.5f, 0.0f}, 0.8f, glm::vec3(1.0f), 0}});
   for (const auto& [average, visibility] : {std::pair("solid_angle", "mean"), std::pair("area", "product"),
                                             std::pair("solid_angle", "difference")}) {
-    const Picture picture = draw(scene, kAbove, balls, {{"average", average}, {"visibility", visibility}});
+    const Picture picture =
+        draw(scene, frame::kAbove, balls, {{"average", average}, {"visibility", visibility}});
     float least = 1.0f;
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
       const float sum = picture.direct[4 * i] + picture.indirect[4 * i];
@@ -182,14 +174,14 @@ TEST(SphericalLights, OneWhiteBallInTheWhiteFurnaceIsNotSeen) {
 
 TEST(SphericalLights, WhatStandsBehindIsNotSeen) {
   // A white ball straight above a black one: below both, its light is gone.
-  const Scene scene = planeScene("uniform");
+  const Scene scene = frame::planeScene("uniform");
   const Balls alone({{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(1.0f), 0}});
   const Balls hidden(
       {{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(1.0f), 0}, {{0.0f, 1.0f, 0.0f}, 0.7f, glm::vec3(0.0f), 1}});
   const std::size_t middle = (kSize / 2) * kSize + kSize / 2, corner = 0;
   for (const char* blocking : {"per_object", "per_sphere"}) {
-    const Picture open = draw(scene, kAbove, alone, {{"blocking", blocking}});
-    const Picture behind = draw(scene, kAbove, hidden, {{"blocking", blocking}});
+    const Picture open = draw(scene, frame::kAbove, alone, {{"blocking", blocking}});
+    const Picture behind = draw(scene, frame::kAbove, hidden, {{"blocking", blocking}});
     EXPECT_NEAR(open.indirect[4 * middle], 3.14159f * 0.4f * 0.4f / 9.0f, 0.004f);
     EXPECT_LT(behind.indirect[4 * middle], 0.25f * open.indirect[4 * middle]);
     EXPECT_GT(behind.indirect[4 * corner], 0.8f * open.indirect[4 * corner]);
@@ -198,10 +190,10 @@ TEST(SphericalLights, WhatStandsBehindIsNotSeen) {
 }
 
 TEST(SphericalLights, WhatGlowsLightsDirectly) {
-  const Scene scene = planeScene("uniform");
-  const Picture dark = draw(scene, kAbove, Balls({{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(0.0f), 0}}));
+  const Scene scene = frame::planeScene("uniform");
+  const Picture dark = draw(scene, frame::kAbove, Balls({{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(0.0f), 0}}));
   const Picture lit =
-      draw(scene, kAbove, Balls({{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(0.0f), 0, glm::vec3(5.0f)}}));
+      draw(scene, frame::kAbove, Balls({{{0.0f, 3.0f, 0.0f}, 0.4f, glm::vec3(0.0f), 0, glm::vec3(5.0f)}}));
   const std::size_t middle = (kSize / 2) * kSize + kSize / 2;
   EXPECT_NEAR(lit.direct[4 * middle] - dark.direct[4 * middle], 5.0f * 3.14159f * 0.4f * 0.4f / 9.0f, 0.02f);
   EXPECT_EQ(lit.indirect[4 * middle], 0.0f);
@@ -209,27 +201,27 @@ TEST(SphericalLights, WhatGlowsLightsDirectly) {
 
 // The lower of two balls lies in the upper one's shadow, and sends less of a sun's light.
 TEST(SphericalLights, LightThatArrivesIsShadowed) {
-  const Scene scene = planeScene("preetham?elevation=89");
+  const Scene scene = frame::planeScene("preetham?elevation=89");
   const Balls low({{{0.0f, 1.0f, 0.0f}, 0.5f, glm::vec3(0.8f), 0}});
   const Balls both(
       {{{0.0f, 1.0f, 0.0f}, 0.5f, glm::vec3(0.8f), 0}, {{0.0f, 2.6f, 0.0f}, 0.9f, glm::vec3(0.8f), 1}});
-  const Picture open = draw(scene, kAbove, low), shaded = draw(scene, kAbove, both);
+  const Picture open = draw(scene, frame::kAbove, low), shaded = draw(scene, frame::kAbove, both);
   EXPECT_LT(shaded.sent[0].at[0].x, 0.75f * open.sent[0].at[0].x);
 }
 
 TEST(SphericalLights, ObjectsThatMeetAreTold) {
-  const Scene scene = planeScene("uniform");
-  EXPECT_TRUE(draw(scene, kAbove, Balls(company())).warnings.empty());
+  const Scene scene = frame::planeScene("uniform");
+  EXPECT_TRUE(draw(scene, frame::kAbove, Balls(company())).warnings.empty());
   const Picture picture =
-      draw(scene, kAbove,
+      draw(scene, frame::kAbove,
            Balls({{{0, 1, 0}, 0.5f, glm::vec3(0.8f), 0}, {{0.4f, 1, 0}, 0.5f, glm::vec3(0.8f), 1}}));
   ASSERT_EQ(picture.warnings.size(), 1u);
   EXPECT_NE(picture.warnings[0].find("meet"), std::string::npos);
 }
 
 TEST(SphericalLights, NothingThereIsThePlainSky) {
-  const Scene scene = planeScene("gradient");
-  const Picture picture = draw(scene, kAbove, Balls({}));
+  const Scene scene = frame::planeScene("gradient");
+  const Picture picture = draw(scene, frame::kAbove, Balls({}));
   const glm::vec3 want = sh::irradiance(projectEnvironment(scene.environment, 4), {0, 1, 0});
   for (std::size_t i = 0; i < picture.pixels(); ++i) {
     ASSERT_NEAR(picture.direct[4 * i + 1], want.y, 2e-3f * want.y);
@@ -256,10 +248,10 @@ TEST(SphericalLights, GroundSendsItsLight) {
 }
 
 TEST(SphericalLights, WithoutEmissionIsAnError) {
-  const Scene scene = planeScene("uniform");
+  const Scene scene = frame::planeScene("uniform");
   frame::TestFrame frame(scene);
   SphericalLights technique(gpu::testDevice());
-  EXPECT_THROW(frame.draw(pose(scene, 0.0f), kAbove, {.width = 8, .height = 8},
+  EXPECT_THROW(frame.draw(pose(scene, 0.0f), frame::kAbove, {.width = 8, .height = 8},
                           [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                             return technique.record(graph, inputs, Settings(info().options));
                           }),

@@ -1,0 +1,15 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Options of the same meaning in each room that lights by spheres: "spheres", "divisor", "window".
+#pragma once
+
+#include <gloam/renderer.h>
+
+namespace gloam {
+
+Option spheresOption();
+Option divisorOption();
+Option windowOption();
+
+}  // namespace gloam
