@@ -25,7 +25,7 @@ std::string lowerExtension(const std::string& path) {
 }  // namespace
 
 Session::Session(const ViewerChoice& choice, std::function<void()> wake)
-    : choice_(choice), jobs_(wake), worker_(choice.device, wake), tracer_(wake) {
+    : choice_(choice), shaders_(choice.shader_folder), jobs_(wake), worker_(choice.device, wake), tracer_(wake) {
   resolution.fixed = choice.scale;
   for (Pick& pick : wanted) pick = pickOf(techniques().front());
   state.left = state.right = wanted[kLeft];

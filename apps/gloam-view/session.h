@@ -16,6 +16,7 @@
 #include "recent_files.h"
 #include "reference_worker.h"
 #include "resolution.h"
+#include "shader_watch.h"
 #include "viewer_choice.h"
 
 namespace gloam::view {
@@ -119,14 +120,16 @@ class Session {
   void advance();
   void requestPicture();
   void followReference();
+  void followShaders();
   void select(const Drawn& drawn);
 
   ViewerChoice choice_;
   RecentFiles recent_;
+  ShaderWatch shaders_;
   std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0, traced_serial_ = 0;
   std::uint64_t picture_revision_ = 0;
   int width_ = 0, height_ = 0, sent_width_ = 0, sent_height_ = 0, still_width_ = 0, still_height_ = 0;
-  double last_change_s_ = -10.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0, switch_started_s_ = -1.0;
+  double last_change_s_ = -10.0, last_look_s_ = 0.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0, switch_started_s_ = -1.0;
   double switch_ms_ = 0.0;
   std::uint64_t response_serial_ = 0;
   int response_from_ = 0, slowest_response_ = 0;

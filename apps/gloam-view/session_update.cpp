@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "gpu/shader_code.h"
 #include "session.h"
 #include "show.h"
 
@@ -30,6 +31,7 @@ std::string kindOf(const std::string& left, const std::string& right, const std:
 }
 
 constexpr int kMostGrowths = 3;
+constexpr double kLookSeconds = 0.25;   // between looks at the sources of shaders
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
 
 }  // namespace
@@ -44,6 +46,7 @@ void Session::update(int width, int height) {
   advance();
   requestPicture();
   followReference();
+  followShaders();
 }
 
 void Session::takeDrawn() {
@@ -174,6 +177,23 @@ void Session::followReference() {
   const Pick& pick = state.left;
   const Coverage light = reference_choice.same_light ? coverageWith(*pick.info, pick.settings) : kAllLight;
   tracer_.start(state, drawn_, light, reference_choice.bounces, reference_choice.samples);
+}
+
+/// Sources that were edited are compiled in the background; what goes wrong leaves the shader as it was.
+void Session::followShaders() {
+  if (now_s() - last_look_s_ < kLookSeconds) return;
+  last_look_s_ = now_s();
+  for (const gpu::ShaderCode* code : shaders_.changed()) {
+    const auto work = [this, code, folder = shaders_.folder()](JobConsole&) -> Jobs::Finish {
+      ShaderWatch::reload(folder, *code);
+      return [this, code] {
+        say(fmt::format("{}: compiled", code->source));
+        changed();
+      };
+    };
+    jobs_.start(fmt::format("Compiling {}", code->name), work,
+                [this](const std::string& problem) { say(problem, true); });
+  }
 }
 
 bool Session::idle() const {

@@ -34,6 +34,9 @@ void addWindowOptions(CLI::App& app, ViewerChoice& choice) {
   cli::addNumber(app, "--ui-scale", choice.ui_scale, {0.5, 4.0}, "FACTOR",
                  "of letters and panels; by default the display's")
       ->group("Window");
+  cli::addName(app, "--watch-shaders", choice.shader_folder, "DIR",
+               "the src folder of gloam's source tree: shaders edited there are compiled and shown at once")
+      ->group("Window");
   app.add_flag_callback(
          "--no-vsync", [&choice] { choice.vsync = false; }, "shows pictures as soon as they are there")
       ->group("Window");

@@ -12,6 +12,12 @@
 
 namespace gloam::view {
 
+#ifdef GLOAM_SHADER_FOLDER  // of a build for those who write shaders
+inline constexpr const char* kShaderFolder = GLOAM_SHADER_FOLDER;
+#else
+inline constexpr const char* kShaderFolder = "";
+#endif
+
 struct ViewerChoice {
   cli::SceneChoice scene{.name = "builtin:cornell"};
   cli::LightChoice light;
@@ -21,7 +27,7 @@ struct ViewerChoice {
   std::string device, show;
   bool use_cache = true;
 
-  std::string screenshot, window_screenshot, script, stats;
+  std::string screenshot, window_screenshot, script, stats, shader_folder = kShaderFolder;
   int frames = 0;
   float ui_scale = 0.0f;  ///< 0: the display's
   float scale = 0.0f;     ///< of the picture's resolution; 0: found

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gpu/device_state.h"
+#include "gpu/shader_reload.h"
 
 namespace gloam::gpu {
 namespace {
@@ -226,10 +227,14 @@ VkPipeline Program::createRasterPipeline(const RasterVariant& variant) {
 }
 
 Program& programFor(Device& device, const std::vector<const ShaderCode*>& stages) {
+  std::vector<const ShaderCode*> newest;
   std::vector<const std::uint32_t*> key;
-  for (const ShaderCode* code : stages) key.push_back(code->words);
+  for (const ShaderCode* code : stages) {
+    newest.push_back(&currentShader(*code));
+    key.push_back(newest.back()->words);
+  }
   auto& program = device.state().programs[key];
-  if (!program) program = std::make_unique<Program>(device, stages);
+  if (!program) program = std::make_unique<Program>(device, std::move(newest));
   return *program;
 }
 

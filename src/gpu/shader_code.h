@@ -14,6 +14,7 @@ struct ShaderCode {
   const char* name;  ///< source file without ".glsl", for messages: "a_verb.comp"
   const std::uint32_t* words;
   std::size_t word_count;
+  const char* source = nullptr;  ///< where it was written, from src/: "frame/frame_shade.comp.glsl"
 };
 
 }  // namespace gloam::gpu

@@ -103,16 +103,29 @@ int ChildProcess::wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string ChildProcess::lastWords() {
+/// Of what it wrote to standard error, those with something in them.
+std::vector<std::string> ChildProcess::lines() {
   std::rewind(errors_);
-  std::string line, last;
+  std::vector<std::string> found;
+  std::string line;
   for (int c = std::fgetc(errors_); c != EOF; c = std::fgetc(errors_)) {
     if (c != '\n')
       line += static_cast<char>(c);
     else if (!line.empty())
-      last = std::exchange(line, {});
+      found.push_back(std::exchange(line, {}));
   }
-  return oneLine(line.empty() ? last : line);
+  if (!line.empty()) found.push_back(line);
+  return found;
+}
+
+std::string ChildProcess::lastWords() {
+  const auto said = lines();
+  return said.empty() ? "" : oneLine(said.back());
+}
+
+std::string ChildProcess::firstWords() {
+  const auto said = lines();
+  return said.empty() ? "" : oneLine(said.front());
 }
 
 }  // namespace gloam

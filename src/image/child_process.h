@@ -29,8 +29,12 @@ class ChildProcess {
   int wait();
   /// The last line that it wrote to standard error.
   std::string lastWords();
+  /// The first.
+  std::string firstWords();
 
  private:
+  std::vector<std::string> lines();
+
   pid_t pid_ = -1;
   int input_ = -1;
   std::FILE* errors_ = nullptr;

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import zlib
@@ -18,6 +19,8 @@ GLOAM = os.environ["GLOAM"]
 VIEW = os.environ["GLOAM_VIEW"]
 BOX = "builtin:cornell?detail=0.25"
 SMALL = ["--size", "640x420"]
+SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+RED = "  imageStore(direct, pixel, vec4(1.0, 0.0, 0.0, 1.0));\n"
 
 
 def png_size_and_rows(path):
@@ -254,6 +257,40 @@ class ViewerTest(unittest.TestCase):
         self.assertGreaterEqual(reference["samples"], 4)
         self.assertGreater(reference["relative_rmse"], 0.0)
         self.assertTrue((self.folder / "normal.png").exists())
+
+    # ---- shaders ---------------------------------------------------------------------------------------------------------
+
+    def test_shaders_are_followed_while_they_are_edited(self):
+        for file in SOURCES.rglob("*"):
+            if file.suffix in (".glsl", ".h"):
+                copy = self.folder / "src" / file.relative_to(SOURCES)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(file, copy)
+        shader = self.folder / "src/frame/frame_shade.comp.glsl"
+        right = shader.read_text()
+        last = right.rindex("}")
+
+        def edit():
+            for seen, text in [("first.png", right[:last] + "broken }"), ("second.png", right[:last] + RED + "}")]:
+                while not (self.folder / seen).exists():
+                    time.sleep(0.05)
+                time.sleep(0.3)
+                shader.write_text(text)
+
+        editor = threading.Thread(target=edit, daemon=True)
+        editor.start()
+        pause = [{"wait_s": 3}, {"wait": "idle"}]
+        self.script([{"wait": "idle"}, {"wait_s": 1}, {"screenshot": "first.png"}, *pause, {"screenshot": "second.png"},
+                     *pause, {"screenshot": "third.png"}, {"stats": "stats.json"}],
+                    BOX, *SMALL, "--scale", "0.2", "--watch-shaders", "src")
+        editor.join(5)
+        first, second, third = (png_size_and_rows(self.folder / f"{n}.png") for n in ("first", "second", "third"))
+        self.assertEqual(first, second)
+        self.assertNotEqual(second, third)
+        said = "\n".join(self.stats("stats.json")["messages"])
+        self.assertIn("frame/frame_shade.comp.glsl: compiled", said)
+        self.assertRegex(said, r"frame_shade\.comp\.glsl:\d+: error")
+        self.refuse(BOX, "--watch-shaders", "nowhere", says="nowhere: expected the src folder")
 
     # ---- a person's hand ---------------------------------------------------------------------------------------------
 
