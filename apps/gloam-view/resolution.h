@@ -16,6 +16,7 @@ class Resolution {
  public:
   float fixed = 0.0f;        ///< share of the window's pixels each way; 0: found
   float moving_ms = 90.0f;   ///< what a picture may take while something moves
+  float hurry_ms = 45.0f;    ///< what the first one after a switch may take
   float still_ms = 1500.0f;  ///< what one may take that stands still
 
   /// Of a picture that took that long: learns what a pixel of its kind (technique and what is shown) costs, apart for small
@@ -31,12 +32,18 @@ class Resolution {
     return fixed <= 0.0f && scale_drawn < 0.97f && milliseconds < 0.4 * double(still_ms);
   }
   void forget() { costs_.clear(); }
-  /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time.
-  float scale(const std::string& kind, double window_pixels, bool moving) const {
+  /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time. `hurry`: the first picture
+  /// after a switch, which is waited for.
+  float scale(const std::string& kind, double window_pixels, bool moving, bool hurry = false) const {
     if (fixed > 0.0f) return fixed;
     const auto known = costs_.find(keyOf(kind, moving));
     if (known == costs_.end()) return moving ? 0.25f : 0.71f;
-    const double affordable = std::max(double(moving ? moving_ms : still_ms) - kBaseMs, 5.0) / known->second;
+    const double affordable = std::max(double(hurry    ? hurry_ms
+                                              : moving ? moving_ms
+                                                       : still_ms) -
+                                           kBaseMs,
+                                       5.0) /
+                              known->second;
     const double share = std::sqrt(affordable / std::max(window_pixels, 1.0));
     float best = kSteps[0];
     for (const float step : kSteps) {

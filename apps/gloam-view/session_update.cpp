@@ -146,7 +146,8 @@ void Session::requestPicture() {
   takePicks();
   const bool both = state.split == Split::kTechnique;
   const std::string kind = kindOf(state.left.info->name, both ? state.right.info->name : "", state.show);
-  const float scale = resolution.scale(kind, double(width_) * height_, moves);
+  const float scale =
+      resolution.scale(kind, double(width_) * height_, moves, moves && switch_started_s_ >= 0.0);
   int width = std::max(1, int(std::lround(float(width_) * scale)));
   int height = std::max(1, int(std::lround(float(height_) * scale)));
   if (video_ && video_->frames() > 0 && drawn_) width = drawn_->width, height = drawn_->height;
