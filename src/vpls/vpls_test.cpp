@@ -107,6 +107,28 @@ TEST(Vpls, FluxOfASpotOverAWhitePlaneIsTheSpots) {
   }
 }
 
+// Cells that the edges of a table cross: their lights lie on the table or on the floor, not between, and none is lost.
+TEST(Vpls, LightsStandOnSurfacesWhereCellsHoldEdges) {
+  Scene scene = planeUnder(lampOf(Light::Type::kSpot, 40.0f, 40.0f), glm::vec3(0.5f), 2.0f);
+  const Mesh floor = scene.meshes.at(0);
+  Mesh table = floor;
+  for (glm::vec3& p : table.positions) p = {0.01f * p.x, 0.8f, 0.01f * p.z};
+  scene.meshes.push_back(table);
+  scene.nodes.at(0).meshes.push_back(1);
+  const Made made = make(scene, {.count = 256, .map_size = 256});
+  int on_table = 0, on_floor = 0;
+  for (std::uint32_t i = 0; i < made.count; ++i) {
+    const glm::vec3 at = made.rows[i].position;
+    on_table += std::abs(at.y - 0.8f) < 1e-3f && std::abs(at.x) < 0.501f && std::abs(at.z) < 0.501f;
+    on_floor += std::abs(at.y) < 1e-3f;
+  }
+  EXPECT_EQ(std::uint32_t(on_table + on_floor), made.count);
+  EXPECT_GT(on_table, 20);
+  EXPECT_GT(on_floor, 20);
+  const float cos_outer = std::cos(glm::radians(40.0f));
+  EXPECT_NEAR(made.flux.x, 0.5f * 3.0f * 2.0f * kPi * (1.0f - cos_outer), 0.01f * made.flux.x);
+}
+
 TEST(Vpls, FluxOfASunIsIrradianceTimesArea) {
   const Made made = make(planeUnder(lampOf(Light::Type::kDirectional), glm::vec3(0.5f), 1.0f, 2.0f),
                          {.count = 256, .map_size = 256});
