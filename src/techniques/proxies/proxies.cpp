@@ -63,6 +63,11 @@ const std::vector<Option>& options() {
       {.name = "normalise",
        .default_value = true,
        .help = "scale light of proxies that overlap by the solid angle that they fill together"},
+      {.name = "parts",
+       .default_value = true,
+       .help =
+           "the light's sharpest peak (a sun) through visibility apart from the rest, neither below 0: no "
+           "coloured rings in contact shadows; not with a window"},
       windowOption()};
   return options;
 }
@@ -211,8 +216,11 @@ const Reach& Proxies::reachFor(const ProxyLight& light) {
 frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                 const Settings& settings) {
   if (inputs.environment.empty()) return {};
-  const ProxyLight light = proxyLight(
-      frame::windowed(inputs.environment.sh(), kShadowOrder, frame::windowNamed(settings.choice("window"))));
+  const frame::Window window = frame::windowNamed(settings.choice("window"));
+  const sh::ShRgb bands = frame::windowed(inputs.environment.sh(), kShadowOrder, window);
+  const ProxyLight light = settings.flag("parts") && window == frame::Window::kNone
+                               ? proxyLight(bands, sh::lightParts(inputs.environment.sh(), kShadowOrder))
+                               : proxyLight(bands);
   const std::string upsample = settings.choice("upsample");
   const std::string coverage = settings.choice("coverage");
   const Reach reach = coverage == "light" ? reachFor(light) : kFixedReach;

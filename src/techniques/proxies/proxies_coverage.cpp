@@ -28,8 +28,9 @@ float brightest(const glm::vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-glm::vec3 shadeTerm(const ProxyLight& light, int i, const sh::Sh& normal) {
-  glm::vec3 sum(0.0f);
+glm::vec3 shadeTerm(const ProxyLight& light, int i, const glm::vec3& way, const sh::Sh& normal) {
+  glm::vec3 sum =
+      light.peak.irradiance * light.peak.basis[i] * std::max(0.0f, glm::dot(way, light.peak.direction));
   for (int j = 0; j < 9; ++j) sum += light.shade[9 * i + j] * normal[j];
   return sum;
 }
@@ -39,7 +40,7 @@ std::vector<Loss> losses(const ProxyLight& light, const std::vector<glm::vec3>& 
   for (const glm::vec3& n : ways) {
     const sh::Sh normal = sh::evaluate(kIndirectOrder, n);
     glm::vec3 terms[16];
-    for (int i = 0; i < 16; ++i) terms[i] = shadeTerm(light, i, normal);
+    for (int i = 0; i < 16; ++i) terms[i] = shadeTerm(light, i, n, normal);
     for (const glm::vec3& d : ways) {
       if (glm::dot(d, n) < 0.0f) continue;
       const sh::Sh y = sh::evaluate(kShadowOrder, d);
@@ -70,8 +71,8 @@ Reach reachOf(const ProxyLight& light, float tolerance) {
   const std::vector<glm::vec3> ways = sampling::fibonacciSphere(kDirections);
   float most = 0.0f;  // irradiance without proxies: O = 1
   for (const glm::vec3& n : ways)
-    most =
-        std::max(most, brightest(shadeTerm(light, 0, sh::evaluate(kIndirectOrder, n))) * sh::zonalFactor(0));
+    most = std::max(most,
+                    brightest(shadeTerm(light, 0, n, sh::evaluate(kIndirectOrder, n))) * sh::zonalFactor(0));
   if (!(most > 0.0f)) return kFixedReach;
   const std::vector<Loss> all = losses(light, ways);
   Reach reach;

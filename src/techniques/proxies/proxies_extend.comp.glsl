@@ -133,7 +133,7 @@ void main() {
       vec4 n = vec4(shadingNormal(texelFetch(normals, pixel, 0).xy), 1.0);
       vec3 lit;
       if (whole_field) {
-        lit = irradianceThrough(float[16](f0.x, f0.y, f0.z, f0.w, f1.x, f1.y, f1.z, f1.w, f2.x, f2.y, f2.z, f2.w,
+        lit = litThrough(float[16](f0.x, f0.y, f0.z, f0.w, f1.x, f1.y, f1.z, f1.w, f2.x, f2.y, f2.z, f2.w,
                                           f3.x, f3.y, f3.z, f3.w), n.xyz);
       } else {
         lit = max(vec3(dot(f0, n), dot(f1, n), dot(f2, n)), vec3(0.0));

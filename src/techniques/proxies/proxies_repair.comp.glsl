@@ -47,12 +47,13 @@ void main() {
   float share = normalise ? overlapShare(o[0], sum.sent.w) : 1.0;
   vec3 terms[9];
   shadeTerms(o, terms);
-  vec3 sent = max(sum.sent.rgb, vec3(0.0)) * share;
+  vec3 peak = peakLeft(light.row.peak, o), sent = max(sum.sent.rgb, vec3(0.0)) * share;
   for (uint k = 0u; k < 4u; ++k) {
     if ((packed >> k & 1u) == 0u) continue;
     ivec2 pixel = pixelOf(first, k);
     vec4 before = imageLoad(direct_full, pixel);
-    vec3 lit = max(irradianceOf(terms, shadingNormal(texelFetch(normals, pixel, 0).xy)), vec3(0.0));
+    vec3 normal = shadingNormal(texelFetch(normals, pixel, 0).xy);
+    vec3 lit = max(irradianceOf(terms, normal), vec3(0.0)) + peak * max(0.0, dot(normal, light.row.peak.direction));
     imageStore(direct_full, pixel, vec4(mix(lit, before.rgb, before.a), 1.0));
     imageStore(indirect_full, pixel, vec4(mix(sent, imageLoad(indirect_full, pixel).rgb, before.a), 1.0));
   }

@@ -6,6 +6,7 @@
 #ifndef GLOAM_PROXIES_SHADE_GLSL
 #define GLOAM_PROXIES_SHADE_GLSL
 #include "frame/field_shade.glsl"
+#include "frame/light_peak.glsl"
 #include "math/sh.glsl"
 #include "math/sh_exp.glsl"
 
@@ -16,6 +17,11 @@ void expOfLog(int method, vec4 log0, vec4 log1, vec4 log2, vec4 log3, out float 
   if (method == kExpLinear) shExpLinear4(f, o);
   if (method == kExpHybrid) shExpHybrid4(f, o);
   if (method == kExpQuadratic) shExpQuadratic4(f, o);
+}
+
+/// Direct light, both parts.
+vec3 litThrough(const float o[16], vec3 normal) {
+  return irradianceThrough(o, normal) + peakThrough(light.row.peak, o, normal);
 }
 
 /// xi: the solid angle that all proxies block together over the sum of what each would alone.

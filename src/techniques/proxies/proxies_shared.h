@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #ifndef GLOAM_PROXIES_SHARED_H
 #define GLOAM_PROXIES_SHARED_H
+#include "frame/light_peak_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(proxies)
+#ifdef __cplusplus
+using frame::LightPeak;
+#endif
 
 /// Receivers of a square of that many a side share a list of proxies.
 GLOAM_SHARED_CONST uint kTileSize = 8u;
@@ -109,10 +113,11 @@ struct ProxyLight {
   vec3 leaving[9];
   /// Its second band as a tensor: xx, yy, zz, xy, yz, xz.
   vec3 tensor[6];
-  /// Q[9 i + j]: irradiance of a receiver = sum of O_i Q_ij y_j(N).
+  /// Q[9 i + j]: irradiance of a receiver = sum of O_i Q_ij y_j(N), of the light less its peak.
   vec3 shade[144];
+  LightPeak peak;
 };
-GLOAM_SHARED_SIZE(ProxyLight, 1908)
+GLOAM_SHARED_SIZE(ProxyLight, 1996)
 
 GLOAM_SHARED_END
 #endif

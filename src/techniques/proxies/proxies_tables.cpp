@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "frame/field_shade.h"
+#include "frame/light_peak.h"
 #include "math/sh_log_exp.h"
 
 namespace gloam::proxies {
@@ -128,6 +129,13 @@ ProxyLight proxyLight(const sh::ShRgb& light) {
   row.tensor[4] = b * row.leaving[5];
   row.tensor[5] = b * row.leaving[7];
   frame::shadeRows(light, row.shade);
+  return row;
+}
+
+ProxyLight proxyLight(const sh::ShRgb& light, const sh::LightParts& parts) {
+  ProxyLight row = proxyLight(light);
+  frame::shadeRows(parts.rest, row.shade);
+  row.peak = frame::lightPeak(parts);
   return row;
 }
 

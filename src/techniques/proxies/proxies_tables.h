@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "math/sh_light_parts.h"
 #include "techniques/proxies/proxies_shared.h"
 
 namespace gloam::proxies {
@@ -35,7 +36,8 @@ ExactOperator exactOperator(float sin_half_angle);
 /// Four vec4 an entry, in that order, row by row.
 std::vector<glm::vec4> exactOperatorTable();
 
-/// `light` has four bands, windowed or not.
+/// `light` has four bands, windowed or not. In two parts, each is kept from falling below 0 by itself.
 ProxyLight proxyLight(const sh::ShRgb& light);
+ProxyLight proxyLight(const sh::ShRgb& light, const sh::LightParts& parts);
 
 }  // namespace gloam::proxies

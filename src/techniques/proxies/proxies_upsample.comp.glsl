@@ -92,7 +92,7 @@ void main() {
     vec3 lit;
     if (whole_field) {
       vec4 e = f3 * w;
-      lit = irradianceThrough(
+      lit = litThrough(
           float[16](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, e.x, e.y, e.z, e.w), normal);
     } else {
       vec4 n = vec4(normal, 1.0);
