@@ -23,8 +23,8 @@ ALLOWED = {
     "reference": SCENE_SIDE | {"spheres", "trace"},
     "gpu": set(),
     "frame": SCENE_SIDE | {"gpu"},
-    "vpls": FRAME_SIDE,
     "visibility": FRAME_SIDE | {"trace"},
+    "vpls": FRAME_SIDE | {"trace", "visibility"},
     "techniques": TECHNIQUE_SIDE,
     "renderer": TECHNIQUE_SIDE | {"techniques"},
 }

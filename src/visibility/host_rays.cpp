@@ -7,83 +7,26 @@
 
 #include <atomic>
 #include <cmath>
-#include <cstring>
 
 #include "trace/tracer.h"
+#include "visibility/host_world.h"
 
 namespace gloam::visibility {
 
 struct HostRays::State {
-  Scene scene;
-  std::unique_ptr<trace::Tracer> tracer;
-  std::uint64_t layout = 0;
-  std::vector<frame::InstanceRow> rows;  // as the tracer has them
-  std::vector<glm::vec3> positions;      // of meshes that do not deform
-  std::vector<std::uint32_t> indices;
+  HostWorld world;
   mutable std::atomic<std::uint64_t> rays{0};
 };
-
-namespace {
-
-bool anyDeformed(const frame::GpuScene& scene) {
-  for (std::size_t i = 0; i < scene.instances().size(); ++i) {
-    if (scene.deformed(i)) return true;
-  }
-  return false;
-}
-
-bool sameRows(std::span<const frame::InstanceRow> a, std::span<const frame::InstanceRow> b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].world_from_object != b[i].world_from_object || a[i].first_vertex != b[i].first_vertex)
-      return false;
-  }
-  return true;
-}
-
-/// One mesh of all triangles in the world.
-Mesh worldMesh(const frame::GpuScene& scene, std::span<const glm::vec3> positions,
-               std::span<const std::uint32_t> indices) {
-  Mesh mesh;
-  mesh.name = "scene";
-  for (const frame::InstanceRow& row : scene.instances()) {
-    const frame::GpuMesh& part = scene.meshes()[row.mesh];
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::uint32_t v = 0; v < part.vertex_count; ++v)
-      mesh.positions.push_back(row.world_from_object * glm::vec4(positions[row.first_vertex + v], 1.0f));
-    for (std::uint32_t i = 0; i < part.index_count; ++i)
-      mesh.indices.push_back(first + indices[part.row.first_index + i]);
-  }
-  return mesh;
-}
-
-}  // namespace
 
 HostRays::HostRays() : state_(std::make_unique<State>()) {}
 HostRays::~HostRays() = default;
 
 void HostRays::reads(gpu::HostPass& pass, const frame::GpuScene& scene) {
-  pass.read(scene.positions()).read(scene.indices());
+  HostWorld::reads(pass, scene);
 }
 
 void HostRays::update(const gpu::HostAccess& access, const frame::GpuScene& scene) {
-  State& s = *state_;
-  const bool deformed = anyDeformed(scene), same_layout = s.tracer && s.layout == scene.layoutRevision();
-  if (same_layout && !deformed && sameRows(s.rows, scene.instances())) return;
-  if (!same_layout || deformed) s.positions = access.download<glm::vec3>(scene.positions());
-  if (!same_layout) s.indices = access.download<std::uint32_t>(scene.indices());
-  s.layout = scene.layoutRevision();
-  s.rows.assign(scene.instances().begin(), scene.instances().end());
-  s.tracer.reset();
-  s.scene = Scene{};
-  s.scene.materials.emplace_back();
-  s.scene.meshes.push_back(worldMesh(scene, s.positions, s.indices));
-  s.scene.meshes.back().material = 0;
-  PosedScene posed;
-  Instance whole;
-  whole.mesh = 0;
-  posed.instances.push_back(whole);
-  s.tracer = std::make_unique<trace::Tracer>(s.scene, posed);
+  state_->world.update(access, scene);
 }
 
 void HostRays::trace(std::span<const Place> from, std::span<const Place> to,
@@ -111,7 +54,7 @@ void HostRays::trace(std::span<const Place> from, std::span<const Place> to,
       if (lanes == 0) continue;
       trace::LaneMask mask;
       mask.set(lanes);
-      s.tracer->occluded(packet, mask, false);
+      s.world.tracer().occluded(packet, mask, false);
       for (std::size_t i = 0; i < trace::kPacketSize; ++i) {
         const bool open = (lanes >> i & 1u) != 0 && !(packet.t_far[i] < 0.0f);
         seen |= std::uint64_t(open) << (first + i);

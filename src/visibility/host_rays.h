@@ -23,7 +23,7 @@ struct Place {
   float offset = 0.0f;
 };
 
-/// All triangles of the scene, in the world, as the device has them. Holes of alpha masks are taken as closed.
+/// All triangles of the scene, in the world, as the device has them (HostWorld).
 class HostRays {
  public:
   HostRays();

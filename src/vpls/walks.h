@@ -1,0 +1,52 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Instant radiosity (Keller 1997) from every light of the scene, as interleaved sampling wants it (Wald et al. 2002; Segovia, Wald
+// 2008; row RF-1): several sets of virtual lights, each of which holds all light by itself.
+#pragma once
+
+#include "frame/frame_inputs.h"
+#include "visibility/visibility.h"
+#include "vpls/walks_shared.h"
+
+namespace gloam::vpls {
+
+struct WalkOptions {
+  int sets = 16;  ///< n * m
+  int direct =
+      16;  ///< rows a set for surfaces that glow and the environment, of both together; lamps come on top
+  int indirect = 32;  ///< rows a set for lit surfaces, of all bounces together
+  int bounces = 1;    ///< surfaces that light meets before it reaches the receiver; 0: direct light alone
+  /// Rows a set for punctual lamps themselves: all of them where there are no more, else a choice by power. They light surfaces
+  /// either way.
+  int most_lamps = 16;
+};
+
+/// Sets of virtual lights on the device. Rows of a set: lamps, then what glows and the environment, then lit surfaces, then rows
+/// of kSightNothing. The set's row says where they are: first; lamps: how many of the first kind; direct: of the first and
+/// second; count: of all three.
+struct Walks {
+  gpu::BufferRef rows;                                        ///< WalkVpl, stride a set
+  gpu::BufferRef sets;                                        ///< visibility::SightSet
+  std::uint32_t set_count = 0;                                ///< 0: nothing was asked for
+  std::uint32_t stride = 0;                                   ///< rows from set to set, a multiple of 4
+  std::uint32_t words() const { return (stride + 31) / 32; }  ///< for visibility::Question
+};
+
+/// Made anew each frame from the same quasi-random points, so that lights glide as things move.
+class Walker {
+ public:
+  Walker();
+  ~Walker();
+
+  /// Adds the host pass "vpls.walks". `world` is updated in it. Throws Error for counts below 0, more than 256 sets, and more
+  /// rows than a buffer of the device holds.
+  Walks record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const WalkOptions& options,
+               visibility::HostWorld& world);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gloam::vpls
