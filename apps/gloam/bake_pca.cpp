@@ -21,8 +21,8 @@ void addPcaOption(CLI::App& app, PcaChoice& choice) {
   };
   app.add_option_function<std::string>(
          "--pca", set,
-         "compresses diffuse transfer: each mesh in N clusters of M principal components; with --half, 64x20 "
-         "is an eighth of its floats")
+         "compresses diffuse transfer: N clusters of points, M principal components each; with --half, 64x20 "
+         "is about an eighth of its floats")
       ->type_name("NxM")
       ->group("Output");
 }

@@ -118,7 +118,8 @@ Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progres
 
 struct TessellateOptions {
   /// Split until transfer that is interpolated over a triangle differs from what it is there by less than this share of
-  /// what a surface receives that nothing shadows: the root mean square over small lights from everywhere. 0.005 to 1.
+  /// what a surface receives that nothing shadows: the root mean square over small lights from everywhere. 0.005 to 1. Where
+  /// light ends at an edge no triangle is small enough: the report has what is left above, and how much of the area it is.
   float error = 0.05f;
   std::size_t max_vertices = 1000000;  ///< of the whole scene; what was not split by then stays
   /// Rays by which errors are measured, of all rounds: bounds the time, with the same mesh on any machine. What was not split
@@ -133,7 +134,10 @@ struct TessellateReport {
   std::size_t vertices_before = 0, vertices_after = 0, triangles_before = 0, triangles_after = 0;
   int passes = 0;
   double error_before = 0.0, error_after = 0.0;  ///< the greatest
-  std::size_t above = 0;                         ///< triangles whose error is still above the bound
+  /// Root mean square over the area of all rigid surfaces, the greatest of a triangle counted for all of it.
+  double mean_error_before = 0.0, mean_error_after = 0.0;
+  std::size_t above = 0;    ///< triangles whose error is still above the bound
+  double above_area = 0.0;  ///< their share of the area
   /// Of these, the ones that are not worth splitting: an edge of light and shadow runs through them, so that their parts err as
   /// much as they do, or they are as small as they may get.
   std::size_t at_finest = 0;

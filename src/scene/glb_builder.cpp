@@ -104,6 +104,12 @@ int GlbBuilder::addNumbers(std::span<const float> values, bool half_float) {
   return addShorts(halves, 1, Target::kNone);
 }
 
+int GlbBuilder::addSharedNumbers(std::span<const float> values, bool half_float) {
+  const auto [found, is_new] = shared_.try_emplace(values.data(), 0);
+  if (is_new) found->second = addNumbers(values, half_float);
+  return found->second;
+}
+
 int GlbBuilder::addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
   // The greatest index of a type is reserved.
   if (vertex_count >= 0xffffu) {

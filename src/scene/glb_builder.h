@@ -34,6 +34,8 @@ class GlbBuilder {
   int addShorts(std::span<const std::uint16_t> values, int components, Target target);
   /// Single numbers that no primitive uses, as floats or as 16-bit floats (of which 65504 is the largest) in shorts.
   int addNumbers(std::span<const float> values, bool half_float);
+  /// The same, and the same accessor when these values, which stay where they are until save(), come again.
+  int addSharedNumbers(std::span<const float> values, bool half_float);
   /// 16 bits an index where that suffices.
   int addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
   /// Zeros, which take no bytes.
@@ -47,6 +49,7 @@ class GlbBuilder {
 
   std::vector<std::uint8_t> binary_;
   std::set<std::string> extensions_;
+  std::map<const float*, int> shared_;
 };
 
 /// The double that prints as shortly as the float and reads back as it.

@@ -4,14 +4,18 @@
 // Numbers out of accessors: every component type, normalised or not, interleaved, sparse, compressed.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "scene/gltf_document.h"
 
 namespace gloam {
+
+struct TransferClusters;
 
 /// Where the elements of an accessor lie. Ranges were checked: any element below `count` may be read.
 struct AccessorView {
@@ -44,6 +48,9 @@ class GltfAccessors {
   std::vector<float> floats(int accessor, int components, const std::string& where);
 
   GltfDocument& document() { return document_; }
+
+  /// What primitives may share, by the accessors and sizes that they name (gltf_transfer_pca.cpp).
+  std::map<std::array<int, 6>, std::shared_ptr<const TransferClusters>> transfer_clusters;
 
  private:
   Bytes writtenOut(int accessor, const std::string& where);

@@ -7,14 +7,15 @@
 namespace gloam {
 
 nlohmann::json pcaJson(const CompressedTransfer& compressed, bool half_float, GlbBuilder& builder) {
-  nlohmann::json json = {{"clusters", compressed.clusters},
-                         {"vectors", compressed.vectors},
-                         {"means", builder.addNumbers(compressed.means, half_float)}};
-  if (compressed.vectors > 0) {
-    json["basis"] = builder.addNumbers(compressed.basis, half_float);
+  const TransferClusters& of = *compressed.of;
+  nlohmann::json json = {{"clusters", of.clusters},
+                         {"vectors", of.vectors},
+                         {"means", builder.addSharedNumbers(of.means, half_float)}};
+  if (of.vectors > 0) {
+    json["basis"] = builder.addSharedNumbers(of.basis, half_float);
     json["weights"] = builder.addNumbers(compressed.weights, half_float);
   }
-  if (compressed.clusters <= 256) {
+  if (of.clusters <= 256) {
     const std::vector<std::uint8_t> bytes(compressed.cluster.begin(), compressed.cluster.end());
     json["cluster"] = builder.addBytes(bytes, 1, GlbBuilder::Target::kNone);
   } else {
@@ -23,21 +24,34 @@ nlohmann::json pcaJson(const CompressedTransfer& compressed, bool half_float, Gl
   return json;
 }
 
+// Primitives may name the same clusters: those are read once.
+static std::shared_ptr<const TransferClusters> readClusters(GltfAccessors& accessors,
+                                                            const ExtensionReader& reader, std::size_t width,
+                                                            bool half_float) {
+  constexpr int kNoAccessor = -1, kMost = 0x7fffffff;
+  auto of = std::make_shared<TransferClusters>();
+  of->clusters = reader.integer("clusters", 1, 65536);
+  of->vectors = reader.integer("vectors", 0, int(width));
+  const int basis = of->vectors > 0 ? reader.integer("basis", 0, kMost) : kNoAccessor;
+  std::shared_ptr<const TransferClusters>& known = accessors.transfer_clusters[{
+      reader.integer("means", 0, kMost), basis, of->clusters, of->vectors, int(width), int(half_float)}];
+  if (known) return known;
+  const auto clusters = std::size_t(of->clusters), vectors = std::size_t(of->vectors);
+  of->means = reader.numbers("means", clusters * width, half_float);
+  if (vectors > 0) of->basis = reader.numbers("basis", clusters * vectors * width, half_float);
+  return known = std::move(of);
+}
+
 void readPca(GltfAccessors& accessors, const nlohmann::json& json, const std::string& where,
              std::size_t points, bool half_float, Transfer& transfer) {
   const ExtensionReader reader(accessors, json, where);
   auto compressed = std::make_shared<CompressedTransfer>();
   const auto direct = std::size_t(transfer.order * transfer.order);
   const std::size_t width = transfer.bounces > 0 ? 4 * direct : direct;
-  compressed->clusters = reader.integer("clusters", 1, 65536);
-  compressed->vectors = reader.integer("vectors", 0, int(width));
-  const auto clusters = std::size_t(compressed->clusters), vectors = std::size_t(compressed->vectors);
-  compressed->means = reader.numbers("means", clusters * width, half_float);
-  if (vectors > 0) {
-    compressed->basis = reader.numbers("basis", clusters * vectors * width, half_float);
-    compressed->weights = reader.numbers("weights", points * vectors, half_float);
-  }
-  compressed->cluster = reader.indices("cluster", points, compressed->clusters);
+  compressed->of = readClusters(accessors, reader, width, half_float);
+  const auto vectors = std::size_t(compressed->of->vectors);
+  if (vectors > 0) compressed->weights = reader.numbers("weights", points * vectors, half_float);
+  compressed->cluster = reader.indices("cluster", points, compressed->of->clusters);
   reader.charge("cluster", points * width);
   expandTransfer(*compressed, transfer);
   transfer.compressed = std::move(compressed);
@@ -45,10 +59,9 @@ void readPca(GltfAccessors& accessors, const nlohmann::json& json, const std::st
 
 std::shared_ptr<const CompressedTransfer> pcaOfPoints(const CompressedTransfer& compressed,
                                                       std::span<const std::uint32_t> points) {
-  auto picked = std::make_shared<CompressedTransfer>(compressed);
-  const auto vectors = std::size_t(compressed.vectors);
-  picked->weights.clear();
-  picked->cluster.clear();
+  auto picked = std::make_shared<CompressedTransfer>();
+  picked->of = compressed.of;
+  const auto vectors = std::size_t(compressed.of->vectors);
   for (const std::uint32_t p : points) {
     picked->cluster.push_back(compressed.cluster[p]);
     for (std::size_t m = 0; m < vectors; ++m) picked->weights.push_back(compressed.weights[p * vectors + m]);

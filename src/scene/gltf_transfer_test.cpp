@@ -56,12 +56,14 @@ Scene glossyScene(int bounces) {
 Scene compressedScene(int bounces) {
   Scene scene = bakedScene(bounces);
   auto transfer = std::make_shared<Transfer>(*scene.meshes[0].transfer);
-  CompressedTransfer pca{.clusters = 3, .vectors = 2};
+  TransferClusters of{.clusters = 3, .vectors = 2};
+  CompressedTransfer pca;
   const std::size_t width = bounces > 0 ? 36 : 9, vertices = scene.meshes[0].vertexCount();
-  for (std::size_t i = 0; i < 3 * width; ++i) pca.means.push_back(std::sin(0.7f * float(i)));
-  for (std::size_t i = 0; i < 6 * width; ++i) pca.basis.push_back(std::cos(0.3f * float(i)));
+  for (std::size_t i = 0; i < 3 * width; ++i) of.means.push_back(std::sin(0.7f * float(i)));
+  for (std::size_t i = 0; i < 6 * width; ++i) of.basis.push_back(std::cos(0.3f * float(i)));
   for (std::size_t i = 0; i < 2 * vertices; ++i) pca.weights.push_back(0.2f * std::sin(float(i)));
   for (std::size_t v = 0; v < vertices; ++v) pca.cluster.push_back(std::uint16_t(v * v % 3));
+  pca.of = std::make_shared<const TransferClusters>(std::move(of));
   expandTransfer(pca, *transfer);
   transfer->compressed = std::make_shared<const CompressedTransfer>(std::move(pca));
   scene.meshes[0].transfer = transfer;
@@ -270,8 +272,8 @@ TEST(Transfer, CompressedComesBackExpanded) {
     // One number by hand: coefficient 4 of vertex 5, then its green bounce.
     const auto number = [&](std::size_t d) {
       const CompressedTransfer& pca = *a.compressed;
-      return pca.means[k * width + d] + pca.weights[2 * v] * pca.basis[2 * k * width + d] +
-             pca.weights[2 * v + 1] * pca.basis[(2 * k + 1) * width + d];
+      return pca.of->means[k * width + d] + pca.weights[2 * v] * pca.of->basis[2 * k * width + d] +
+             pca.weights[2 * v + 1] * pca.of->basis[(2 * k + 1) * width + d];
     };
     EXPECT_NEAR(a.direct[9 * v + 4], number(4), 1e-6f);
     if (bounces > 0) {

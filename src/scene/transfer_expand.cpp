@@ -9,9 +9,12 @@
 
 namespace gloam {
 
+std::size_t TransferClusters::bytes(bool half_float) const {
+  return (means.size() + basis.size()) * (half_float ? 2 : 4);
+}
+
 std::size_t CompressedTransfer::bytes(bool half_float) const {
-  const std::size_t number = half_float ? 2 : 4, index = clusters <= 256 ? 1 : 2;
-  return (means.size() + basis.size() + weights.size()) * number + cluster.size() * index;
+  return weights.size() * (half_float ? 2 : 4) + cluster.size() * (of->clusters <= 256 ? 1 : 2);
 }
 
 std::size_t numbersOfPoint(const Transfer& transfer) {
@@ -22,8 +25,9 @@ std::size_t numbersOfPoint(const Transfer& transfer) {
 
 void expandTransfer(const CompressedTransfer& compressed, Transfer& transfer) {
   const auto direct = std::size_t(transfer.order * transfer.order);
-  const std::size_t width = compressed.means.size() / std::size_t(compressed.clusters);
-  const auto vectors = std::size_t(compressed.vectors);
+  const TransferClusters& of = *compressed.of;
+  const std::size_t width = of.means.size() / std::size_t(of.clusters);
+  const auto vectors = std::size_t(of.vectors);
   const std::size_t points = compressed.cluster.size(), indirect = width - direct;
   transfer.direct.resize(points * direct);
   transfer.indirect.resize(points * indirect);
@@ -32,10 +36,10 @@ void expandTransfer(const CompressedTransfer& compressed, Transfer& transfer) {
     std::vector<float> sum(width);
     for (std::size_t p = block * kBlock; p < std::min(points, (block + 1) * kBlock); ++p) {
       const std::size_t c = compressed.cluster[p];
-      std::copy_n(&compressed.means[c * width], width, sum.begin());
+      std::copy_n(&of.means[c * width], width, sum.begin());
       for (std::size_t m = 0; m < vectors; ++m) {
         const float weight = compressed.weights[p * vectors + m];
-        const float* vector = &compressed.basis[(c * vectors + m) * width];
+        const float* vector = &of.basis[(c * vectors + m) * width];
         for (std::size_t i = 0; i < width; ++i) sum[i] += weight * vector[i];
       }
       std::copy_n(sum.begin(), direct, &transfer.direct[p * direct]);

@@ -113,26 +113,23 @@ FileNumbers numbersOf(const BakeSizes& sizes, const BakeOptions& options) {
           sizes.glossy_vertices * (layout.visibilityCount() + (bounces ? 3 * matrix : 0))};
 }
 
-/// As compressTransfer will have it, by mesh.
+/// As compressTransfer will have it.
 std::size_t compressedBytes(const Scene& scene, const BakeSizes& sizes, const BakeOptions& options,
                             const BakeFileForm& form) {
   constexpr std::size_t kPointsANumber = 2;
   const std::size_t width = std::size_t(options.order * options.order) * (bouncesOf(options) > 0 ? 4 : 1);
   const std::size_t vectors = std::min(std::size_t(form.vectors), width), number = form.half_float ? 2 : 4;
-  std::size_t bytes = 0;
+  std::size_t points = 0;
   for (std::size_t i = 0; i < sizes.posed.instances.size(); ++i) {
     const Instance& instance = sizes.posed.instances[i];
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
     if (instance.deformed() || mesh.indices.empty()) continue;
     const LightmapSize map = sizes.lightmaps.empty() ? LightmapSize{} : sizes.lightmaps[i];
-    const std::size_t points =
-        map.width > 0 ? std::size_t(map.width) * std::size_t(map.height) : mesh.vertexCount();
-    const std::size_t clusters =
-        std::clamp<std::size_t>(points / (kPointsANumber * width), 1, std::size_t(form.clusters));
-    bytes +=
-        clusters * (1 + vectors) * width * number + points * (vectors * number + (clusters > 256 ? 2 : 1));
+    points += map.width > 0 ? std::size_t(map.width) * std::size_t(map.height) : mesh.vertexCount();
   }
-  return bytes;
+  const std::size_t clusters =
+      std::clamp<std::size_t>(points / (kPointsANumber * width), 1, std::size_t(form.clusters));
+  return clusters * (1 + vectors) * width * number + points * (vectors * number + (clusters > 256 ? 2 : 1));
 }
 
 /// JSON, meshes and pictures come with a margin: what pictures shrink to is not known before.

@@ -23,6 +23,7 @@ namespace {
 
 using Index = Eigen::Index;
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Points = Eigen::Map<const Rows>;
 constexpr Index kBlock = 512;  // points that are looked at together
 constexpr int kMeanIterations = 6;
 
@@ -41,7 +42,7 @@ void forBlocks(Index points, const Work& work) {
 }
 
 /// Each point goes to the nearest space. Returns how many changed.
-std::size_t assign(const Rows& points, Clusters& clusters) {
+std::size_t assign(const Points& points, Clusters& clusters) {
   std::vector<std::size_t> changed(std::size_t((points.rows() + kBlock - 1) / kBlock), 0);
   forBlocks(points.rows(), [&](Index first, Index count) {
     Eigen::VectorXf best = Eigen::VectorXf::Constant(count, std::numeric_limits<float>::infinity());
@@ -75,7 +76,7 @@ std::size_t assign(const Rows& points, Clusters& clusters) {
 }
 
 /// An empty cluster begins anew at the point that is shown worst.
-void seedEmpty(const Rows& points, Clusters& clusters, std::vector<std::vector<Index>>& members) {
+void seedEmpty(const Points& points, Clusters& clusters, std::vector<std::vector<Index>>& members) {
   for (std::size_t c = 0; c < members.size(); ++c) {
     if (!members[c].empty()) continue;
     const auto worst = std::size_t(std::ranges::max_element(clusters.error) - clusters.error.begin());
@@ -86,7 +87,7 @@ void seedEmpty(const Rows& points, Clusters& clusters, std::vector<std::vector<I
 
 /// Means and, where `vectors` > 0, principal components of every cluster. A cluster sums its members in order, so that the
 /// number of threads does not matter.
-void fit(const Rows& points, int vectors, Clusters& clusters) {
+void fit(const Points& points, int vectors, Clusters& clusters) {
   std::vector<std::vector<Index>> members(std::size_t(clusters.means.rows()));
   for (std::size_t p = 0; p < clusters.of.size(); ++p) members[clusters.of[p]].push_back(Index(p));
   tbb::parallel_for(std::size_t(0), members.size(), [&](std::size_t c) {
@@ -119,7 +120,7 @@ void fit(const Rows& points, int vectors, Clusters& clusters) {
 ClusteredPca clusteredPca(std::span<const float> values, std::size_t width, int cluster_count, int vectors,
                           int iterations, const Progress& progress) {
   const Index rows = Index(values.size() / width);
-  const Rows points = Eigen::Map<const Rows>(values.data(), rows, Index(width));
+  const Points points(values.data(), rows, Index(width));
   Clusters clusters;
   clusters.means.resize(cluster_count, Index(width));
   clusters.basis.assign(std::size_t(cluster_count), Rows(0, Index(width)));

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "scene/half_float.h"
 #include "techniques/prt/prt_compress.h"
@@ -41,14 +42,38 @@ void checkOptions(const CompressOptions& options) {
   check("iterations", options.iterations, 1, 1000);
 }
 
-std::vector<float> gathered(const Transfer& transfer, std::size_t width) {
-  const auto direct = std::size_t(transfer.order * transfer.order), indirect = width - direct;
-  const std::size_t points = transfer.direct.size() / direct;
-  std::vector<float> values(points * width);
-  for (std::size_t p = 0; p < points; ++p) {
-    for (std::size_t i = 0; i < direct; ++i)
-      values[p * width + i] = kDirectScale * transfer.direct[p * direct + i];
-    if (indirect > 0) std::copy_n(&transfer.indirect[p * indirect], indirect, &values[p * width + direct]);
+/// Meshes whose points have as many numbers: they share their clusters.
+struct Group {
+  std::size_t width = 0, direct = 0;
+  std::vector<Mesh*> meshes;
+};
+
+std::vector<Group> groupsOf(Scene& scene) {
+  std::vector<Group> groups;
+  for (Mesh& mesh : scene.meshes) {
+    if (!mesh.transfer) continue;
+    const std::size_t width = numbersOfPoint(*mesh.transfer),
+                      direct = std::size_t(mesh.transfer->order * mesh.transfer->order);
+    auto found =
+        std::ranges::find_if(groups, [&](const Group& g) { return g.width == width && g.direct == direct; });
+    if (found == groups.end()) found = groups.insert(found, Group{width, direct, {}});
+    found->meshes.push_back(&mesh);
+  }
+  return groups;
+}
+
+std::vector<float> gathered(const Group& group) {
+  const std::size_t direct = group.direct, indirect = group.width - direct;
+  std::size_t all = 0;
+  for (const Mesh* mesh : group.meshes) all += mesh->transfer->direct.size() / direct;
+  std::vector<float> values(all * group.width);
+  float* row = values.data();
+  for (const Mesh* mesh : group.meshes) {
+    const Transfer& transfer = *mesh->transfer;
+    for (std::size_t p = 0; p < transfer.direct.size() / direct; ++p, row += group.width) {
+      for (std::size_t i = 0; i < direct; ++i) row[i] = kDirectScale * transfer.direct[p * direct + i];
+      if (indirect > 0) std::copy_n(&transfer.indirect[p * indirect], indirect, row + direct);
+    }
   }
   return values;
 }
@@ -57,20 +82,16 @@ void roundToHalves(std::vector<float>& values) {
   for (float& value : values) value = floatFromHalf(halfFromFloat(value));
 }
 
-std::shared_ptr<const CompressedTransfer> compressed(const Transfer& transfer, const CompressOptions& options,
-                                                     const Progress& progress) {
-  const std::size_t width = numbersOfPoint(transfer), direct = std::size_t(transfer.order * transfer.order);
-  const std::vector<float> values = gathered(transfer, width);
-  auto result = std::make_shared<CompressedTransfer>();
-  const std::size_t points = values.size() / width;
-  result->clusters =
+prt::ClusteredPca compressed(const Group& group, const CompressOptions& options, const Progress& progress) {
+  const std::vector<float> values = gathered(group);
+  const std::size_t width = group.width, points = values.size() / width;
+  const auto clusters =
       int(std::clamp<std::size_t>(points / (kPointsANumber * width), 1, std::size_t(options.clusters)));
-  result->vectors = int(std::min<std::size_t>(std::size_t(options.vectors), width));
-  prt::ClusteredPca pca =
-      prt::clusteredPca(values, width, result->clusters, result->vectors, options.iterations, progress);
+  const auto vectors = int(std::min<std::size_t>(std::size_t(options.vectors), width));
+  prt::ClusteredPca pca = prt::clusteredPca(values, width, clusters, vectors, options.iterations, progress);
   const auto unscale = [&](std::vector<float>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (i % width < direct) rows[i] /= kDirectScale;
+      if (i % width < group.direct) rows[i] /= kDirectScale;
   };
   unscale(pca.means);
   unscale(pca.basis);
@@ -79,11 +100,32 @@ std::shared_ptr<const CompressedTransfer> compressed(const Transfer& transfer, c
     roundToHalves(pca.basis);
     roundToHalves(pca.weights);
   }
-  result->means = std::move(pca.means);
-  result->basis = std::move(pca.basis);
-  result->weights = std::move(pca.weights);
-  result->cluster = std::move(pca.cluster);
-  return result;
+  return pca;
+}
+
+/// Hands each mesh its points of the whole.
+void deal(prt::ClusteredPca pca, Group& group) {
+  auto of = std::make_shared<TransferClusters>();
+  of->clusters = int(pca.means.size() / group.width);
+  of->vectors = int(pca.basis.size() / pca.means.size());
+  of->means = std::move(pca.means);
+  of->basis = std::move(pca.basis);
+  const auto vectors = std::ptrdiff_t(of->vectors);
+  auto weight = pca.weights.cbegin();
+  auto cluster = pca.cluster.cbegin();
+  for (Mesh* mesh : group.meshes) {
+    const auto points = std::ptrdiff_t(mesh->transfer->direct.size() / group.direct);
+    auto small = std::make_shared<CompressedTransfer>();
+    small->of = of;
+    small->weights.assign(weight, weight + points * vectors);
+    small->cluster.assign(cluster, cluster + points);
+    weight += points * vectors;
+    cluster += points;
+    auto transfer = std::make_shared<Transfer>(*mesh->transfer);
+    expandTransfer(*small, *transfer);
+    transfer->compressed = std::move(small);
+    mesh->transfer = std::move(transfer);
+  }
 }
 
 struct Sums {
@@ -127,13 +169,16 @@ CompressReport reportOn(const Scene& before, const Scene& after, bool half_float
   Sums numbers;
   std::array<Sums, kTestLights.size()> lit;
   std::vector<std::string> texts(kTestLights.begin(), kTestLights.end());
+  std::set<const TransferClusters*> counted;
   for (std::size_t m = 0; m < before.meshes.size(); ++m) {
     const Transfer* was = before.meshes[m].transfer.get();
     const Transfer* is = after.meshes[m].transfer.get();
     if (was == nullptr) continue;
     report.points += is->compressed->cluster.size();
     report.bytes_before += (was->direct.size() + was->indirect.size()) * (half_float ? 2 : 4);
-    report.bytes += is->compressed->bytes(half_float);
+    const CompressedTransfer& compressed = *is->compressed;
+    report.bytes += compressed.bytes(half_float);
+    if (counted.insert(compressed.of.get()).second) report.bytes += compressed.of->bytes(half_float);
     addNumbers(was->direct, is->direct, 3.0, numbers);
     addNumbers(was->indirect, is->indirect, 1.0, numbers);
     tbb::parallel_for(std::size_t(0), kTestLights.size(), [&](std::size_t i) {
@@ -161,22 +206,9 @@ Scene compressTransfer(const Scene& scene, const CompressOptions& options, const
                        CompressReport* report) {
   checkOptions(options);
   Scene result = scene;
-  double all = 0.0, done = 0.0;
-  for (const Mesh& mesh : scene.meshes) all += mesh.transfer ? double(mesh.transfer->direct.size()) : 0.0;
-  if (all == 0.0) throw Error("compression", "no mesh of this scene carries transfer");
-  for (Mesh& mesh : result.meshes) {
-    if (!mesh.transfer) continue;
-    const double share = double(mesh.transfer->direct.size()) / all;
-    Progress part{{}, progress.should_stop};
-    part.update = [&, from = done](double fraction, const std::string& what) {
-      progress.report(from + share * fraction, what);
-    };
-    done += share;
-    auto transfer = std::make_shared<Transfer>(*mesh.transfer);
-    transfer->compressed = compressed(*mesh.transfer, options, part);
-    expandTransfer(*transfer->compressed, *transfer);
-    mesh.transfer = std::move(transfer);
-  }
+  std::vector<Group> groups = groupsOf(result);
+  if (groups.empty()) throw Error("compression", "no mesh of this scene carries transfer");
+  for (Group& group : groups) deal(compressed(group, options, progress), group);
   if (report != nullptr) *report = reportOn(scene, result, options.half_float);
   return result;
 }

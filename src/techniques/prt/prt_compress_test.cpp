@@ -117,6 +117,10 @@ TEST(CompressTransfer, ErrorsAreThoseOfWhatComesBackFromTheFile) {
     std::filesystem::remove(path);
     double error = 0.0, size = 0.0;
     ASSERT_EQ(again.meshes.size(), small.meshes.size());
+    for (const Scene* s : {&small, &again}) {
+      EXPECT_EQ(s->meshes[0].transfer->compressed->of, s->meshes[1].transfer->compressed->of)
+          << "clusters are shared";
+    }
     for (std::size_t m = 0; m < small.meshes.size(); ++m) {
       const Transfer &was = *scene.meshes[m].transfer, &is = *again.meshes[m].transfer;
       ASSERT_TRUE(is.compressed);
@@ -137,6 +141,9 @@ TEST(CompressTransfer, ErrorsAreThoseOfWhatComesBackFromTheFile) {
     EXPECT_LT(report.transfer_error, 0.08);
     EXPECT_LE(report.light_error, report.worst_light_error);
     EXPECT_LT(report.bytes, report.bytes_before / 3);
+    const CompressedTransfer &a = *small.meshes[0].transfer->compressed,
+                             &b = *small.meshes[1].transfer->compressed;
+    EXPECT_EQ(report.bytes, a.bytes(half_float) + b.bytes(half_float) + a.of->bytes(half_float));
   }
 }
 
