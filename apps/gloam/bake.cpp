@@ -67,6 +67,7 @@ void printResult(const BakeChoice& choice, const BakeReport& report, const Tesse
       console.remark(fmt::format("{} points have matrices; prt.glossy=cheap would err by {:.1f} %",
                                  countText(report.glossy_points), 100.0 * report.cheap_error));
     }
+    remarkMissedBound(choice.surfaces, split, console);
     return;
   }
   const BakeOptions& options = choice.options;

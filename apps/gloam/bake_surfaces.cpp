@@ -9,24 +9,19 @@
 namespace gloam::cli {
 namespace {
 
-std::string splitText(const TessellateReport& report, float bound) {
-  std::string text = fmt::format(
+std::string splitText(const TessellateReport& report) {
+  return fmt::format(
       "tessellated: {} vertices added ({} to {}), {} triangles; error of transfer between vertices {:.1f} % "
-      "before, {:.1f} % after",
+      "before, {:.1f} % after at worst, {:.1f} % before, {:.1f} % after over the area",
       countText(report.vertices_after - report.vertices_before), countText(report.vertices_before),
       countText(report.vertices_after), countText(report.triangles_after), 100.0 * report.error_before,
-      100.0 * report.error_after);
-  if (report.above == 0) return text;
-  text += fmt::format("; {} triangles are above {:.1f} %", countText(report.above), 100.0 * double(bound));
-  if (report.at_finest > 0)
-    text += fmt::format(", {} of them not worth more vertices: light ends there at an edge, or at a facet",
-                        countText(report.at_finest));
-  if (report.out_of_rays) {
-    text += "; --tessellate-rays allows no more";
-  } else if (report.at_finest < report.above) {
-    text += "; --tessellate-max allows no more";
-  }
-  return text;
+      100.0 * report.error_after, 100.0 * report.mean_error_before, 100.0 * report.mean_error_after);
+}
+
+const char* whyItStopped(const TessellateReport& report) {
+  if (report.out_of_rays) return "--tessellate-rays allows no more";
+  if (report.at_finest < report.above) return "--tessellate-max allows no more";
+  return "light ends there at an edge or a facet, where no triangle is small enough";
 }
 
 }  // namespace
@@ -43,7 +38,8 @@ void addSurfaceOptions(CLI::App& app, BakeOptions& options, SurfaceChoice& choic
                              ->default_str(std::to_string(options.uv_set));
   grouped(
       addNumber(app, "--tessellate", choice.tessellate, {0.005, 1.0}, "ERROR",
-                "split triangles until transfer between vertices errs by less than this part of open light"));
+                "split triangles until transfer between vertices errs by less than this part of open light; "
+                "edges of light are split until it does not help, and what is left is told"));
   choice.max_option = grouped(addInteger(app, "--tessellate-max", choice.tessellate_max, {3, 100000000}, "N",
                                          "vertices of the scene at most"))
                           ->default_str(std::to_string(choice.tessellate_max));
@@ -81,9 +77,17 @@ Scene tessellatedAsChosen(Scene scene, const BakeOptions& options, const Surface
   }
   Scene split = tessellateForTransfer(scene, how, progress, &report);
   console.endProgress();
-  console.remark(splitText(report, choice.tessellate));
+  console.remark(splitText(report));
   split.environment = std::move(scene.environment);
   return split;
+}
+
+void remarkMissedBound(const SurfaceChoice& choice, const TessellateReport& report, Console& console) {
+  if (choice.tessellate == 0.0f || report.above == 0) return;
+  console.remark(fmt::format(
+      "--tessellate {:g} is missed on {} of {} triangles, {:.2g} % of the area, by up to {:.1f} %: {}",
+      choice.tessellate, countText(report.above), countText(report.triangles_after),
+      100.0 * report.above_area, 100.0 * report.error_after, whyItStopped(report)));
 }
 
 Json tessellateJson(const SurfaceChoice& choice, const TessellateReport& report) {
@@ -94,7 +98,11 @@ Json tessellateJson(const SurfaceChoice& choice, const TessellateReport& report)
           {"triangles_after", report.triangles_after},
           {"error_before", report.error_before},
           {"error_after", report.error_after},
+          {"mean_error_before", report.mean_error_before},
+          {"mean_error_after", report.mean_error_after},
+          {"bound_holds", report.above == 0},
           {"triangles_above", report.above},
+          {"area_above", report.above_area},
           {"triangles_at_finest", report.at_finest},
           {"rays", report.rays},
           {"out_of_rays", report.out_of_rays}};

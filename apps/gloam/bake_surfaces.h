@@ -27,6 +27,8 @@ void remarkUnusedSurfaceOptions(const BakeOptions& options, const SurfaceChoice&
 /// The scene as it is to be baked; says what was split. Throws Error, Interrupted.
 Scene tessellatedAsChosen(Scene scene, const BakeOptions& options, const SurfaceChoice& choice,
                           Console& console, TessellateReport& report);
+/// Where the bound does not hold: one line with what was reached, on how much of the surface, and what ended it.
+void remarkMissedBound(const SurfaceChoice& choice, const TessellateReport& report, Console& console);
 /// Null where nothing was asked for.
 Json tessellateJson(const SurfaceChoice& choice, const TessellateReport& report);
 

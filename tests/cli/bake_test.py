@@ -239,10 +239,13 @@ f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
         scene = "builtin:gallery?detail=0.25"
         done = self.succeed("bake", scene, *QUICK, "--kind", "ds", "--tessellate", "0.1", "-o", "a.glb").err
         self.assertRegex(done, r"tessellated: [\d,]+ vertices added \([\d,]+ to [\d,]+\).* % before, .* % after")
+        self.assertRegex(done.splitlines()[-1], r"--tessellate 0.1 is missed on [\d,]+ of [\d,]+ triangles, [\d.e-]+ % of the area, by up to")
         result = self.succeed_json("bake", scene, *QUICK, "--kind", "ds", "--tessellate", "0.1", "--tessellate-max", "700", "-o", "b.glb")
         split = result["tessellated"]
         self.assertTrue(split["vertices_before"] < split["vertices_after"] <= 700, split)
         self.assertGreater(split["error_before"], 0.1)
+        self.assertFalse(split["bound_holds"])
+        self.assertTrue(0.0 < split["area_above"] < 1.0, split)
         self.assertEqual(self.succeed_json("info", "b.glb")["vertices"], split["vertices_after"])
         self.assertIsNone(self.succeed_json("bake", scene, *QUICK, "-o", "c.glb")["tessellated"])
         self.assertIn("--tessellate-max has no effect", self.succeed("bake", scene, *QUICK, "--tessellate-max", "900", "-o", "c.glb").err)

@@ -7,6 +7,7 @@
 #include <gloam/bake.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/threads.h"
 #include "techniques/prt/prt_tessellate_error.h"
@@ -66,13 +67,10 @@ void handOn(const std::vector<std::vector<std::uint32_t>>& parents, std::vector<
   }
 }
 
-float greatest(const std::vector<std::vector<float>>& errors) {
-  float most = 0.0f;
-  for (const std::vector<float>& of_mesh : errors) {
-    for (const float error : of_mesh) most = std::max(most, error);
-  }
-  return most;
-}
+/// Over all triangles: the greatest error, and what it is by area.
+struct Summary {
+  double greatest = 0.0, mean = 0.0, above_area = 0.0;
+};
 
 class Tessellation {
  public:
@@ -94,7 +92,11 @@ class Tessellation {
     begin();
     for (report.passes = 0; report.passes <= kMostPasses; ++report.passes) {
       measureParts(measure, progress, report);
-      if (report.passes == 0) report.error_before = double(greatest(errors_));
+      if (report.passes == 0) {
+        const Summary before = summary();
+        report.error_before = before.greatest;
+        report.mean_error_before = before.mean;
+      }
       const std::vector<TriangleRef> chosen = choose(report);
       if (chosen.empty() || mesh_.full() || report.out_of_rays || report.passes == kMostPasses) break;
       const std::size_t before = mesh_.triangleCount();
@@ -104,7 +106,10 @@ class Tessellation {
     }
     report.vertices_after = mesh_.vertexCount();
     report.triangles_after = mesh_.triangleCount();
-    report.error_after = double(greatest(errors_));
+    const Summary after = summary();
+    report.error_after = after.greatest;
+    report.mean_error_after = after.mean;
+    report.above_area = after.above_area;
   }
 
   Scene take() { return std::move(scene_); }
@@ -137,6 +142,24 @@ class Tessellation {
         line.fruitless = fruitless ? std::uint8_t(std::min(255, line.fruitless + 1)) : std::uint8_t(0);
       }
     }
+  }
+
+  Summary summary() const {
+    Summary result;
+    double area = 0.0, squares = 0.0, above = 0.0;
+    for (std::uint32_t i = 0; i < errors_.size(); ++i) {
+      for (std::uint32_t t = 0; t < errors_[i].size(); ++t) {
+        const double of_triangle = mesh_.area({i, t}), error = std::max(0.0, double(errors_[i][t]));
+        area += of_triangle;
+        squares += of_triangle * error * error;
+        if (error > double(options_.error)) above += of_triangle;
+        result.greatest = std::max(result.greatest, error);
+      }
+    }
+    if (area <= 0.0) return result;
+    result.mean = std::sqrt(squares / area);
+    result.above_area = above / area;
+    return result;
   }
 
   bool isWorthSplitting(const TriangleRef& triangle) const {

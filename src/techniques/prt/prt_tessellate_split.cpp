@@ -111,6 +111,12 @@ float SplitMesh::longestEdge(const TriangleRef& triangle) const {
   return float(glm::distance(places_[std::size_t(key >> 32)], places_[std::size_t(key & 0xffffffffu)]));
 }
 
+double SplitMesh::area(const TriangleRef& triangle) const {
+  const std::uint32_t* corner = &meshOf(triangle.instance).indices[3 * std::size_t(triangle.triangle)];
+  const auto at = [&](int k) { return places_[place_[triangle.instance][corner[k]]]; };
+  return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+}
+
 std::uint32_t SplitMesh::middle(std::size_t instance, std::uint32_t a, std::uint32_t b, const Edges& edges) {
   const std::uint64_t key = edgeKey(place_[instance][a], place_[instance][b]);
   place_[instance].push_back(edges.middle[edges.index.at(key)]);

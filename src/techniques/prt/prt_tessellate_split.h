@@ -27,6 +27,7 @@ class SplitMesh {
   std::size_t triangleCount() const;  ///< of rigid meshes
   /// Of a triangle, in metres.
   float longestEdge(const TriangleRef& triangle) const;
+  double area(const TriangleRef& triangle) const;  ///< in square metres
   /// Splits the longest edges of these, the first ones first, and what other triangles need to stay whole: wherever an edge of
   /// a triangle is split, its longest one is, too, so that no slivers come about. Stops before there are more than
   /// `max_vertices`. Returns by instance, for each triangle that now is, the one that it is a part of.

@@ -206,6 +206,9 @@ TEST(PrtTessellate, ErrorEndsBelowTheBound) {
   EXPECT_GT(report.error_before, 0.2);
   EXPECT_LE(report.error_after, 0.06);
   EXPECT_EQ(report.above, 0u);
+  EXPECT_EQ(report.above_area, 0.0);
+  EXPECT_LT(report.mean_error_before, report.error_before);
+  EXPECT_LT(report.mean_error_after, 0.5 * report.mean_error_before);
   EXPECT_EQ(report.vertices_before, scene.meshes[0].vertexCount() + scene.meshes[1].vertexCount());
   EXPECT_EQ(report.vertices_after, split.meshes[0].vertexCount() + split.meshes[1].vertexCount());
   EXPECT_LT(split.meshes[0].vertexCount(), 1500u);
@@ -246,6 +249,10 @@ TEST(PrtTessellate, EdgesOfLightEndAtTheFinest) {
   tessellateForTransfer(scene, options, {}, &report);
   EXPECT_EQ(report.above, report.at_finest);
   EXPECT_GT(report.at_finest, 0u);
+  EXPECT_GT(report.error_after, 0.1);
+  EXPECT_LT(report.mean_error_after, 0.1) << "of all but a narrow band";
+  EXPECT_GT(report.above_area, 0.0);
+  EXPECT_LT(report.above_area, 0.02);
   EXPECT_LT(report.vertices_after, 5000u) << "vertices there lower no error";
   EXPECT_FALSE(report.out_of_rays);
   EXPECT_GT(report.rays, 0u);
