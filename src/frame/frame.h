@@ -21,6 +21,7 @@ struct FrameOptions {
   bool motion = false;
   std::span<const Proxy> proxies = {};  ///< for techniques that take spheres in place of what moves
   const Emission* emission = nullptr;   ///< what these send
+  std::span<const Patch> flats = {};    ///< what has none, as blockers of light
 };
 
 /// What one frame leaves to the next.

@@ -27,6 +27,7 @@ struct FrameInputs {
   Warnings& warnings;                   ///< one-line remarks for whoever renders
   std::span<const Proxy> proxies = {};  ///< spheres in place of what moves; empty unless someone made them
   const Emission* emission = nullptr;   ///< what they send; null unless someone made it
+  std::span<const Patch> flats = {};    ///< what has no proxies, as blockers of light; with proxies
 };
 
 /// First surface lit by a source, or by other surfaces.

@@ -13,7 +13,7 @@ namespace gloam {
 
 namespace {
 
-constexpr int kSendingPatches = 160, kBlockingPatches = 12;
+constexpr int kSendingPatches = 160;
 
 [[noreturn]] void refuse() {
   throw Error("emission of spheres", "belongs to other spheres or to another scene");

@@ -46,7 +46,7 @@ std::vector<SurfacePoint> pointsOf(const Scene& scene, const Instance& instance,
       if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
       const float mirrored = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f ? -1.0f : 1.0f;
       points.push_back({(1.0f - u - v) * p[0] + u * p[1] + v * p[2], mirrored / size * across,
-                        trace::diffuseAlbedo(scene, mesh, {int(t), u, v}), float(area_each)});
+                        trace::reflectance(scene, mesh, {int(t), u, v}), float(area_each)});
     }
   }
   return points;
@@ -139,6 +139,7 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
   std::vector<std::vector<SurfacePoint>> points;
   for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kPoints));
   const auto fill = [&](int most, std::vector<frame::Patch> Placed::*list) {
+    if (most <= 0) return;
     for (float side = std::sqrt(float(area) / float(most));; side *= 1.15f) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -154,6 +155,12 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
   };
   fill(senders, &Placed::senders);
   fill(blockers, &Placed::blockers);
+}
+
+std::vector<frame::Patch> FlatPatches::blockers(const PosedScene& posed) const {
+  frame::Emission emission;
+  pose(posed, emission);
+  return std::move(emission.blocking_patches);
 }
 
 void FlatPatches::pose(const PosedScene& posed, frame::Emission& emission) const {

@@ -10,6 +10,9 @@
 
 namespace gloam {
 
+/// Rectangles that stand in the light: at most so many of all things together.
+inline constexpr int kBlockingPatches = 12;
+
 class FlatPatches {
  public:
   FlatPatches() = default;
@@ -17,6 +20,7 @@ class FlatPatches {
   FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers);
   /// Adds them where they are now.
   void pose(const PosedScene& posed, frame::Emission& emission) const;
+  std::vector<frame::Patch> blockers(const PosedScene& posed) const;
 
  private:
   struct Placed {

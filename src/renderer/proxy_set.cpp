@@ -108,6 +108,7 @@ ProxySet::ProxySet(const Scene& scene, const SceneSpheres& spheres)
     albedos_.push_back(sphereAlbedos(scene, set));
     shares_.push_back(shadowShares(scene, set));
   }
+  flats_ = FlatPatches(scene, spheres, 0, kBlockingPatches);
 }
 
 std::vector<PosedSphere> ProxySet::drawnIn(const PosedScene& posed) const {

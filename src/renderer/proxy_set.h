@@ -8,6 +8,7 @@
 #include <gloam/spheres.h>
 
 #include "frame/proxy.h"
+#include "renderer/flat_patches.h"
 
 namespace gloam {
 
@@ -20,6 +21,8 @@ class ProxySet {
   /// The same as a frame takes them.
   std::vector<frame::Proxy> posed(const PosedScene& posed) const;
   std::vector<frame::Proxy> proxiesOf(std::span<const PosedSphere> drawn_in) const;
+  /// What has no spheres, as blockers of light (flat_patches.h).
+  std::vector<frame::Patch> flats(const PosedScene& posed) const { return flats_.blockers(posed); }
   const SceneSpheres& spheres() const { return spheres_; }
   /// Of radii, as they are drawn in: [set][sphere].
   const std::vector<std::vector<float>>& shares() const { return shares_; }
@@ -29,6 +32,7 @@ class ProxySet {
   Scene scene_;                                  // nodes, and places of the vertices that spheres follow
   std::vector<std::vector<glm::vec3>> albedos_;  // [set][sphere]
   std::vector<std::vector<float>> shares_;       // of radii; the same
+  FlatPatches flats_;
 };
 
 /// Mean diffuse albedo of the surface near each sphere of a set (nearest by |p - c| / r), textures and vertex colours

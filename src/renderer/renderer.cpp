@@ -137,12 +137,15 @@ RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camer
   if (!impl_->scene) throw Error("renderer", "no scene was set");
   Technique& technique = impl_->techniqueFor(info.name);
   std::vector<frame::Proxy> proxies;
+  std::vector<frame::Patch> flats;
   frame::Emission sent;
   if (info.needs_spheres) {
     if (!impl_->proxies) throw Error("renderer", fmt::format("{}: no sphere sets were set", info.name));
     const std::vector<PosedSphere> spheres = impl_->proxies->drawnIn(posed);
     proxies = impl_->proxies->proxiesOf(spheres);
     frame_options.proxies = proxies;
+    flats = impl_->proxies->flats(posed);
+    frame_options.flats = flats;
     if (info.needs_emission) {
       if (!impl_->sent) throw Error("renderer", fmt::format("{}: what spheres send was not set", info.name));
       sent = impl_->sent->posed(posed, spheres);

@@ -63,6 +63,9 @@ const std::vector<Option>& options() {
       {.name = "normalise",
        .default_value = true,
        .help = "scale light of proxies that overlap by the solid angle that they fill together"},
+      {.name = "flats",
+       .default_value = true,
+       .help = "what has no spheres (ground, walls, rooms) stands in the distant light, too, as rectangles"},
       {.name = "parts",
        .default_value = true,
        .help =
@@ -75,6 +78,14 @@ const std::vector<Option>& options() {
 std::vector<ProxyRow> rowsOf(std::span<const frame::Proxy> proxies) {
   std::vector<ProxyRow> rows;
   for (const frame::Proxy& proxy : proxies) rows.push_back({proxy.center, proxy.radius, proxy.albedo, 0.0f});
+  if (rows.empty()) rows.push_back({});
+  return rows;
+}
+
+std::vector<PatchRow> flatRowsOf(std::span<const frame::Patch> flats) {
+  std::vector<PatchRow> rows;
+  for (const frame::Patch& flat : flats)
+    rows.push_back({flat.center, flat.half_u, flat.half_v, flat.normal, flat.albedo});
   if (rows.empty()) rows.push_back({});
   return rows;
 }
@@ -94,7 +105,10 @@ Received recordReceivers(const Step& step, const Sums& sums) {
       .specialize("exponential", step.exponential)
       .specialize("normalise", step.normalise)
       .specialize("has_indirect", step.indirect != kIndirectOff)
+      .read("receiver_position", step.level.position)
       .read("receiver_normal", step.level.normal_depth)
+      .read("flats", step.flats)
+      .read("log_table", step.log_table)
       .read("log_visibility", sums.log_visibility)
       .read("indirect_sum", sums.sent)
       .read("light", step.light)
@@ -105,6 +119,7 @@ Received recordReceivers(const Step& step, const Sums& sums) {
       .write("optical_depth", step.image("proxies.log_visibility", VK_FORMAT_R32_SFLOAT))
       .write("visibility", step.image("proxies.visibility", VK_FORMAT_R32_SFLOAT))
       .write("normalisation", step.image("proxies.normalisation", VK_FORMAT_R32_SFLOAT))
+      .push(ShadeParams{step.flat_count})
       .dispatchOver(received.direct);
   return received;
 }
@@ -177,6 +192,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("normals", gbuffer.normals)
       .read("repairs", repairs)
       .read("proxies", step.proxies)
+      .read("flats", step.flats)
       .read("bits", tiles.bits)
       .read("log_table", step.log_table)
       .read("alone_table", step.alone_table)
@@ -184,7 +200,8 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("light", step.light)
       .readWrite("direct_full", received.direct)
       .readWrite("indirect_full", received.indirect)
-      .push(RepairParams{step.params, tiles.columns, repair_capacity, std::uint32_t(step.level.divisor)})
+      .push(RepairParams{step.params, tiles.columns, repair_capacity, std::uint32_t(step.level.divisor),
+                         step.flat_count})
       .dispatchIndirect(repairs);
   return received;
 }
@@ -232,11 +249,13 @@ frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs
                   .inputs = inputs,
                   .level = inputs.receivers.at(std::stoi(settings.choice("divisor"))),
                   .proxies = graph.upload("proxies.proxies", rowsOf(inputs.proxies)),
+                  .flats = graph.upload("proxies.flats", flatRowsOf(inputs.flats)),
                   .light = graph.uploadOne("proxies.light", light),
                   .log_table = log_table_,
                   .alone_table = alone_table_,
                   .operator_table = operator_table_,
                   .proxy_count = proxy_count,
+                  .flat_count = settings.flag("flats") ? std::uint32_t(inputs.flats.size()) : 0u,
                   .least_sine = sh::logBlockerAlpha(std::min(shadow.from, indirect.from)),
                   .params = {words, shadow.from, shadow.to, indirect.from, indirect.to},
                   .indirect = indirectKind(settings.choice("indirect")),

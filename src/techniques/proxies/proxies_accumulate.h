@@ -18,8 +18,8 @@ struct Step {
   gpu::FrameGraph& graph;
   const frame::FrameInputs& inputs;
   const frame::ReceiverLevel& level;
-  gpu::BufferRef proxies, light, log_table, alone_table, operator_table;
-  std::uint32_t proxy_count;
+  gpu::BufferRef proxies, flats, light, log_table, alone_table, operator_table;
+  std::uint32_t proxy_count, flat_count;
   float least_sine;  ///< of half-angles that count anywhere
   AccumulateParams params;
   int indirect, exponential;

@@ -22,14 +22,16 @@ layout(set = 0, binding = 2) uniform usampler2D normals;
 layout(scalar, set = 0, binding = 3) readonly buffer Repairs { RepairList list; uint at[]; } repairs;
 layout(scalar, set = 0, binding = 4) readonly buffer Proxies { ProxyRow at[]; } proxies;
 layout(scalar, set = 0, binding = 11) readonly buffer Bits { uint at[]; } bits;
+layout(scalar, set = 0, binding = 12) readonly buffer Flats { PatchRow at[]; } flats;
 layout(scalar, set = 0, binding = 5) readonly buffer LogTable { vec4 at[]; } log_table;
 layout(scalar, set = 0, binding = 6) readonly buffer OperatorTable { vec4 at[]; } operator_table;
 layout(scalar, set = 0, binding = 10) readonly buffer AloneTable { float at[]; } alone_table;
 layout(scalar, set = 0, binding = 7) uniform LightBlock { ProxyLight row; } light;
 layout(set = 0, binding = 8, rgba16f) uniform image2D direct_full;  // A: how much of it is kept
 layout(set = 0, binding = 9, rgba16f) uniform image2D indirect_full;
-layout(scalar, push_constant) uniform Push { AccumulateParams params; uint columns; uint capacity; uint divisor; } push;
+layout(scalar, push_constant) uniform Push { AccumulateParams params; uint columns; uint capacity; uint divisor; uint flats; } push;
 
+#include "techniques/proxies/proxies_flats.glsl"
 #include "techniques/proxies/proxies_quads.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 #include "techniques/proxies/proxies_tile_list.glsl"
@@ -45,6 +47,10 @@ void main() {
   float o[16];
   expOfLog(exponential, sum.log0, sum.log1, sum.log2, sum.log3, o);
   float share = normalise ? overlapShare(o[0], sum.sent.w) : 1.0;
+  if (push.flats > 0u) {
+    addFlats(push.flats, middle.position, middle.normal, sum.log0, sum.log1, sum.log2, sum.log3);
+    expOfLog(exponential, sum.log0, sum.log1, sum.log2, sum.log3, o);
+  }
   vec3 terms[9];
   shadeTerms(o, terms);
   vec3 peak = peakLeft(light.row.peak, o), sent = max(sum.sent.rgb, vec3(0.0)) * share;

@@ -17,6 +17,9 @@ layout(set = 0, binding = 0) uniform sampler2D receiver_normal;  // w: 0 is back
 layout(set = 0, binding = 1) uniform sampler2DArray log_visibility;
 layout(set = 0, binding = 2) uniform sampler2D indirect_sum;
 layout(scalar, set = 0, binding = 3) uniform LightBlock { ProxyLight row; } light;
+layout(set = 0, binding = 11) uniform sampler2D receiver_position;
+layout(scalar, set = 0, binding = 12) readonly buffer Flats { PatchRow at[]; } flats;
+layout(scalar, set = 0, binding = 13) readonly buffer LogTable { vec4 at[]; } log_table;
 layout(set = 0, binding = 4) uniform writeonly image2DArray field;
 layout(set = 0, binding = 10) uniform writeonly image2DArray planes;
 layout(set = 0, binding = 5) uniform writeonly image2D direct;
@@ -24,7 +27,9 @@ layout(set = 0, binding = 6) uniform writeonly image2D indirect;
 layout(set = 0, binding = 7) uniform writeonly image2D optical_depth;
 layout(set = 0, binding = 8) uniform writeonly image2D visibility;
 layout(set = 0, binding = 9) uniform writeonly image2D normalisation;
+layout(scalar, push_constant) uniform Push { ShadeParams params; } push;
 
+#include "techniques/proxies/proxies_flats.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 
 void main() {
@@ -38,6 +43,10 @@ void main() {
   expOfLog(exponential, log0, log1, log2, log3, o);
   float share = overlapShare(o[0], sent.w);
   float covered = normal.w > 0.0 ? 1.0 : 0.0;
+  if (push.params.flats > 0u) {
+    addFlats(push.params.flats, texelFetch(receiver_position, place, 0).xyz, normal.xyz, log0, log1, log2, log3);
+    expOfLog(exponential, log0, log1, log2, log3, o);
+  }
   imageStore(field, ivec3(place, 0), vec4(o[0], o[1], o[2], o[3]));
   imageStore(field, ivec3(place, 1), vec4(o[4], o[5], o[6], o[7]));
   imageStore(field, ivec3(place, 2), vec4(o[8], o[9], o[10], o[11]));

@@ -3,10 +3,12 @@
 #ifndef GLOAM_PROXIES_SHARED_H
 #define GLOAM_PROXIES_SHARED_H
 #include "frame/light_peak_shared.h"
+#include "frame/patch_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(proxies)
 #ifdef __cplusplus
 using frame::LightPeak;
+using frame::PatchRow;
 #endif
 
 /// Receivers of a square of that many a side share a list of proxies.
@@ -69,6 +71,11 @@ struct SplatParams {
 };
 GLOAM_SHARED_SIZE(SplatParams, 36)
 
+struct ShadeParams {
+  uint flats;
+};
+GLOAM_SHARED_SIZE(ShadeParams, 4)
+
 struct UpsampleParams {
   uint divisor;
   uint capacity;  // of the list
@@ -94,8 +101,9 @@ struct RepairParams {
   uint columns;
   uint capacity;
   uint divisor;
+  uint flats;
 };
-GLOAM_SHARED_SIZE(RepairParams, 32)
+GLOAM_SHARED_SIZE(RepairParams, 36)
 
 /// Squares of 2 x 2 pixels that a work group looks at, and the head of their list: arguments of the dispatch, then how many there
 /// are plus one (all four begin as 1).

@@ -27,7 +27,7 @@ struct Picture {
 };
 
 Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<frame::Proxy>& proxies,
-             const Values& values = {}) {
+             const Values& values = {}, const std::vector<frame::Patch>& flats = {}) {
   frame::TestFrame frame(scene);
   Proxies technique(gpu::testDevice());
   Settings settings(info().options);
@@ -35,7 +35,7 @@ Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<fr
   settings.set("window", "none");
   for (const auto& [name, value] : values) settings.set(name, value);
   const std::string level = settings.choice("divisor");
-  frame.draw(pose(scene, 0.0f), camera, {.width = kSize, .height = kSize, .proxies = proxies},
+  frame.draw(pose(scene, 0.0f), camera, {.width = kSize, .height = kSize, .proxies = proxies, .flats = flats},
              [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                return technique.record(graph, inputs, settings);
              });
@@ -375,6 +375,29 @@ TEST(Proxies, CoarseReceiversShowTheSamePicture) {
   EXPECT_LT(shaded, 0.05);
   EXPECT_LT(field, shaded);
   EXPECT_LT(shaded, bilinear);
+}
+
+// Below the middle of a ceiling 4 wide, 2 high, what is left of a white sky is 1 less the form factor, 0.446; and a ground does not
+// stand in its own light.
+TEST(Proxies, ACeilingTakesItsFormFactorFromTheSky) {
+  const Scene scene = frame::planeScene("uniform");
+  const frame::Patch ceiling{{0, 2, 0}, {2, 0, 0}, {0, 0, 2}, {0, -1, 0}},
+      ground{{0, 0, 0}, {10, 0, 0}, {0, 0, -10}, {0, 1, 0}};
+  const Picture open = draw(scene, frame::kAbove, {}),
+                grounded = draw(scene, frame::kAbove, {}, {}, {ground});
+  EXPECT_EQ(open.direct, grounded.direct);
+  const Picture under = draw(scene, frame::kAbove, {}, {}, {ground, ceiling});
+  const Picture off = draw(scene, frame::kAbove, {}, {{"flats", "false"}}, {ground, ceiling});
+  EXPECT_EQ(open.direct, off.direct);
+  int middle = 0;
+  for (std::size_t i = 0; i < under.pixels(); ++i) {
+    const glm::vec3 p = under.at(under.position, i);
+    EXPECT_LE(under.direct[4 * i], 1.01f * open.direct[4 * i]);
+    if (std::hypot(p.x, p.z) > 0.15f) continue;
+    EXPECT_NEAR(under.direct[4 * i] / open.direct[4 * i], 0.446f, 0.03f);
+    ++middle;
+  }
+  EXPECT_GT(middle, 0);
 }
 
 TEST(Proxies, WithoutProxiesItIsUnshadowedAndWithoutLightDark) {

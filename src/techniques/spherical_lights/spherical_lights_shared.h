@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #ifndef GLOAM_SPHERICAL_LIGHTS_SHARED_H
 #define GLOAM_SPHERICAL_LIGHTS_SHARED_H
+#include "frame/patch_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(spherical_lights)
+#ifdef __cplusplus
+using frame::PatchRow;
+#endif
 
 /// Of the polynomials over the coordinate of a sphere's half-angle.
 GLOAM_SHARED_CONST int kFitTerms = 10;
@@ -19,8 +23,8 @@ GLOAM_SHARED_CONST int kMean = 0;
 GLOAM_SHARED_CONST int kProduct = 1;
 GLOAM_SHARED_CONST int kDifference = 2;
 
-/// As many objects' sums a receiver keeps at once.
-GLOAM_SHARED_CONST uint kMostKept = 32u;
+/// Of as many groups (objects, or spheres) a receiver keeps the sums.
+GLOAM_SHARED_CONST uint kMostKept = 512u;
 
 struct SphereRow {
   vec3 center;
@@ -28,8 +32,8 @@ struct SphereRow {
   uint object;
   uint first;  // of its object's spheres
   uint count;
-  uint first_apart;  // of the list of those of its object that it does not meet
-  uint apart;
+  uint first_listed;  // of those of its object that it does not meet (per object), or meets (per sphere)
+  uint listed;
   float blocks;  // 0: a lamp, which stands in nobody's light; 1
 };
 GLOAM_SHARED_SIZE(SphereRow, 40)
@@ -63,19 +67,33 @@ struct SentRow {
 };
 GLOAM_SHARED_SIZE(SentRow, 192)
 
-/// A rectangle of something without spheres.
-struct PatchRow {
-  vec3 center;
-  vec3 half_u;
-  vec3 half_v;
-  vec3 normal;
-  vec3 albedo;
-};
-GLOAM_SHARED_SIZE(PatchRow, 60)
 /// What patches take of the view is found from a few cones: that much more may come from them.
 GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
 /// Samples of one.
 GLOAM_SHARED_CONST uint kPatchPoints = 4u;
+
+/// Lists of squares of 2 x 2 pixels. Their points stand in pictures of that many columns, eight rows a row of work groups; the
+/// head of a list is the arguments of a dispatch over these (8, 1, 1 at first), then how many there are plus one.
+GLOAM_SHARED_CONST uint kPointColumns = 64u;
+GLOAM_SHARED_CONST uint kPointRow = 512u;
+struct PixelList {
+  uint groups_x;
+  uint groups_y;
+  uint groups_z;
+  uint count_and_one;
+};
+GLOAM_SHARED_SIZE(PixelList, 16)
+struct UpsampleParams {
+  uint divisor;
+  uint capacity;  // of the list
+};
+GLOAM_SHARED_SIZE(UpsampleParams, 8)
+struct WidenParams {
+  uint divisor;
+  uint capacity;         // of the list that it reads
+  uint repair_capacity;  // of the list that it writes
+};
+GLOAM_SHARED_SIZE(WidenParams, 12)
 
 struct LightRows {
   vec3 shade[144];   // Q[9 i + j]

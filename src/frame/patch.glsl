@@ -1,0 +1,42 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Rectangles of what has no spheres (ground, walls), as a point sees them. What one of radiance 1 sends to a point is exact (Lambert): its
+// vector irradiance is half the sum over edges of the angle that they subtend times the unit normal of the plane through edge and
+// point. As a blocker it is the cone of the same vector irradiance, pi sin^2.
+#ifndef GLOAM_FRAME_PATCH_GLSL
+#define GLOAM_FRAME_PATCH_GLSL
+#include "frame/patch_shared.h"
+
+vec3 wayTo(vec3 d) { return d * inversesqrt(max(dot(d, d), 1e-24)); }
+vec3 edgeTerm(vec3 a, vec3 b) {
+  vec3 across = cross(a, b);
+  float size = length(across);
+  return size > 1e-6 ? atan(size, dot(a, b)) / size * across : vec3(0.0);
+}
+
+/// Toward the patch, at most pi long; height: of the point over its plane.
+vec3 patchVector(PatchRow row, vec3 position, out float height) {
+  vec3 c = row.center - position;
+  vec3 r0 = wayTo(c - row.half_u - row.half_v), r1 = wayTo(c + row.half_u - row.half_v);
+  vec3 r2 = wayTo(c + row.half_u + row.half_v), r3 = wayTo(c - row.half_u + row.half_v);
+  vec3 sum = 0.5 * (edgeTerm(r0, r1) + edgeTerm(r1, r2) + edgeTerm(r2, r3) + edgeTerm(r3, r0));
+  height = -dot(c, row.normal);
+  return (dot(sum, row.normal) > 0.0) == (height >= 0.0) ? -sum : sum;
+}
+
+/// A blocker. `there`: 0 to 1. In its plane one fades out, from behind at some distance: a point of a surface may lie a little below the
+/// rectangle that stands for it.
+struct PatchCone {
+  vec3 direction;
+  float sin_half_angle, there;
+};
+PatchCone patchCone(PatchRow row, vec3 position, vec3 normal) {
+  float height;
+  vec3 toward = patchVector(row, position, height);
+  float size = length(toward), scale = length(row.half_u + row.half_v);
+  return PatchCone(size > 1e-9 ? toward / size : normal, sqrt(min(size / 3.14159265, 1.0)),
+                   height >= 0.0 ? smoothstep(0.0, 0.002, height / scale) : smoothstep(0.02, 0.1, -height / scale));
+}
+
+#endif
