@@ -134,7 +134,8 @@ const Verb kBenchVerb = {
     "gloam bench irradiance model.glb --env probe.exr --frames 50 --json | for programs\n"
     "gloam bench proxies --paper -o operators.svg | the paper's figures, ours beside them; a plot\n"
     "gloam bench sh | spherical harmonics: nanoseconds an operation, one thread\n"
-    "gloam bench bake bunny.obj | the baker's rays a second beside those of the tracing library alone\n",
+    "gloam bench bake bunny.obj | the baker's rays a second beside those of the tracing library alone\n"
+    "gloam bench gloss builtin:bronze --env sky:mild | shadowed gloss against plain integrals\n",
     declareBench};
 
 }  // namespace gloam::cli

@@ -7,11 +7,14 @@
 #include <math/sh_bench.h>
 #include <math/sh_exp_errors.h>
 #include <reference/reference_bench.h>
+#include <scene/environment.h>
 #include <techniques/prt/prt_bake_bench.h>
+#include <techniques/prt/prt_gloss_bench.h>
 
 #include <thread>
 
 #include "bench_relight.h"
+#include "bench_visibility.h"
 #include "json.h"
 #include "scene_inputs.h"
 #include "verb.h"
@@ -103,6 +106,47 @@ int benchBaking(const BenchChoice& choice, Console& console) {
   return kDone;
 }
 
+int benchGlossyTransfer(const BenchChoice& choice, Console& console) {
+  constexpr int kOrder = 5;
+  const Scene scene = loadSceneToDraw(choice.scene, console);
+  const Environment environment = chooseEnvironment(scene, choice.light, console, 0.0f);
+  if (environment.empty()) throw Error("bench gloss", "no light to reflect; expected --env or --light");
+  console.release();
+  const PrtGlossBench result = benchGloss(scene, projectEnvironment(environment, kOrder), {});
+  if (console.json) {
+    Json rows = Json::array();
+    for (const PrtGlossRow& row : result.rows) {
+      rows.push_back({{"exponent", row.exponent},
+                      {"shown_exponent", row.shown},
+                      {"matrix_error", row.matrix},
+                      {"cheap_error", row.cheap},
+                      {"unshadowed_error", row.unshadowed},
+                      {"truncation", row.truncation}});
+    }
+    console.print(jsonText({{"scene", choice.scene.name},
+                            {"environment", environment.name},
+                            {"order", result.order},
+                            {"directions", result.directions},
+                            {"points", result.points},
+                            {"truth_directions", result.truth_directions},
+                            {"rows", rows}}));
+    return kDone;
+  }
+  console.print(fmt::format("{}, {}: order {}, {} directions, {} points, each against {} directions",
+                            choice.scene.name, environment.name, result.order,
+                            countText(std::size_t(result.directions)), countText(result.points),
+                            countText(std::size_t(result.truth_directions))));
+  console.print(
+      "relative RMSE against the same lobe in the same bands; what the bands leave of the lobe, apart");
+  console.print("exponent   shown    matrix     cheap   unshadowed   truncation");
+  for (const PrtGlossRow& row : result.rows) {
+    console.print(fmt::format("{:8g} {:7g} {:7.2f} % {:7.2f} % {:10.1f} % {:10.1f} %", row.exponent,
+                              row.shown, 100.0 * row.matrix, 100.0 * row.cheap, 100.0 * row.unshadowed,
+                              100.0 * row.truncation));
+  }
+  return kDone;
+}
+
 int benchRelighting(const BenchChoice& choice, Console& console) {
   return benchRelight(choice.scene, console);
 }
@@ -146,17 +190,23 @@ int benchReferencePaths(const BenchChoice& choice, Console& console) {
 }
 
 constexpr BenchSuite kSuites[] = {
-    {"sh", "spherical harmonics on the CPU", false, false, benchSphericalHarmonics},
-    {"reference", "the path tracer's ray rate against that of the tracing library alone", true, true,
+    {"sh", "spherical harmonics on the CPU", false, false, false, benchSphericalHarmonics},
+    {"reference", "the path tracer's ray rate against that of the tracing library alone", true, true, true,
      benchReferencePaths},
-    {"bake", "the baker's ray rate against that of the tracing library alone", true, false, benchBaking},
-    {"relight", "what a change of light costs, against the device's own copies", true, false,
+    {"bake", "the baker's ray rate against that of the tracing library alone", true, false, false,
+     benchBaking},
+    {"gloss", "matrices of shadowed gloss against plain integrals, the lobe's truncation apart", true, true,
+     false, benchGlossyTransfer},
+    {"relight", "what a change of light costs, against the device's own copies", true, false, false,
      benchRelighting},
+    {"visibility", "rays to virtual lights, host and device, against the tracing library alone", true, true,
+     true, benchVisibility},
 };
 
 bool takes(const BenchSuite& suite, const CLI::Option& option) {
   const std::string name = option.get_name(), group = option.get_group();
-  if (group == "Light" || group == "View") return suite.takes_light_and_view;
+  if (group == "Light") return suite.takes_light;
+  if (group == "View") return suite.takes_view;
   if (name == "SCENE" || name == "--ground") return suite.takes_scene;
   return name == "TECHNIQUE" || name == "--settings" || name == "--quiet" || name == "--json";
 }

@@ -15,7 +15,7 @@ struct BenchSuite {
   const char* name;
   const char* summary;
   /// Which options it has a use for; of the others some are refused, none is dropped silently.
-  bool takes_scene, takes_light_and_view;
+  bool takes_scene, takes_light, takes_view;
   int (*run)(const BenchChoice& choice, Console& console);
 };
 std::span<const BenchSuite> benchSuites();

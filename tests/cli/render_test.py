@@ -227,11 +227,22 @@ class Bench(CliTest):
         self.refuse("bench", "reference", BOX, "--env", "no.exr", says="no.exr")
         self.refuse("bench", "reference", BOX, "--camera", "nobody", says="nobody")
 
+    def test_gloss_is_told_like_for_like(self):
+        result = self.succeed_json("bench", "gloss", BOX, "--env", "sky:mild")
+        self.assertEqual((result["scene"], result["environment"], result["order"]), (BOX, "sky:mild", 5))
+        self.assertEqual([row["exponent"] for row in result["rows"]], [3, 10, 30, 100])
+        for row in result["rows"]:
+            self.assertLess(row["matrix_error"], 0.03, row)
+            self.assertLess(row["shown_exponent"], 10.5, row)
+        self.assertLess(result["rows"][0]["truncation"], result["rows"][3]["truncation"])
+        self.refuse("bench", "gloss", BOX, "--env", "none", says="bench gloss")
+
     def test_what_means_nothing_is_refused(self):
         for subject, option, value in (("reference", "--frames", "3"), ("reference", "--device", "0"), ("bake", "--size", "16"),
                                        ("bake", "--env", "none"), ("relight", "--fov", "30"), ("sh", "--size", "16")):
             self.refuse("bench", subject, option, value, says=[option, subject])
         self.refuse("bench", "reference", "--prt.window", "none", says=["--prt.window", "reference"])
+        self.refuse("bench", "gloss", BOX, "--size", "64", says=["--size", "gloss"])
         self.refuse("bench", "sh", BOX, says=["SCENE", "sh"])
 
     def test_unknown_subject(self):

@@ -16,6 +16,7 @@
 #include "math/sh_high_order.h"
 #include "scene/transforms.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
+#include "techniques/prt/prt_gloss_bench.h"
 #include "techniques/prt/prt_glossy_state.h"
 #include "trace/tracer.h"
 
@@ -221,6 +222,25 @@ TEST(PrtGlossyBake, MatrixIsTheIntegralOfTheShadowedLobe) {
   }
   EXPECT_GT(size, 1.0);
   EXPECT_LT(std::sqrt(difference / size), 0.01);
+}
+
+// What `gloam bench gloss` tells: like for like, and what bands leave of a lobe.
+TEST(PrtGlossyBake, BenchHoldsMatricesAgainstIntegrals) {
+  const Scene scene = crowdedScene();
+  sh::ShRgb light = sh::constantSky(5, glm::vec3(0.5f));
+  light += sh::colored(sh::directionalLight(5, glm::normalize(glm::vec3(1, 2, 0.5f))),
+                       glm::vec3(2.0f, 1.5f, 1.0f));
+  const PrtGlossBench bench = benchGloss(scene, light, {.directions = 4096});
+  EXPECT_GT(bench.points, 50u);
+  ASSERT_EQ(bench.rows.size(), 4u);
+  for (const PrtGlossRow& row : bench.rows) {
+    EXPECT_LT(row.matrix, 0.01) << row.exponent;
+    EXPECT_GT(row.cheap, 2.0 * row.matrix) << row.exponent;
+    EXPECT_GT(row.unshadowed, 2.0 * row.cheap) << row.exponent;
+  }
+  EXPECT_LT(bench.rows[0].truncation, 0.02) << "five bands hold cos^3";
+  EXPECT_GT(bench.rows[3].truncation, bench.rows[1].truncation);
+  EXPECT_EQ(bench.rows[3].shown, 10.0f);
 }
 
 // The first bounce from GS and DS of what is hit, by as plain a loop as there can be.
