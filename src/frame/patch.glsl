@@ -9,10 +9,12 @@
 #include "frame/patch_shared.h"
 
 vec3 wayTo(vec3 d) { return d * inversesqrt(max(dot(d, d), 1e-24)); }
+/// angle / sin(angle) between two unit vectors times their cross product. The factor is a polynomial over the cosine (least largest
+/// error, 2e-5), and for the obtuse the one of the rest to pi.
 vec3 edgeTerm(vec3 a, vec3 b) {
-  vec3 across = cross(a, b);
-  float size = length(across);
-  return size > 1e-6 ? atan(size, dot(a, b)) / size * across : vec3(0.0);
+  float x = dot(a, b), y = abs(x);
+  float f = ((((-0.0693367306 * y + 0.281867207) * y - 0.547124648) * y + 0.762052962) * y - 0.998255165) * y + 1.57077493;
+  return (x < 0.0 ? 3.14159265 * inversesqrt(max(1.0 - y * y, 1e-12)) - f : f) * cross(a, b);
 }
 
 /// Toward the patch, at most pi long; height: of the point over its plane.
