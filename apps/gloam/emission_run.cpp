@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSamplingVersion = 1;  // to be raised when the same spheres give other samples
+constexpr int kSamplingVersion = 2;  // to be raised when the same spheres give other samples
 
 std::string keyOf(const Scene& scene, const SceneSpheres& spheres, const EmissionOptions& options) {
   Fingerprint key;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "math/brdf.h"
+
 namespace gloam::trace {
 namespace {
 
@@ -127,6 +129,13 @@ glm::vec3 mappedNormal(const glm::vec3& normal, const glm::vec4& tangent, const 
 glm::vec3 diffuseAlbedo(const Scene& scene, const Mesh& mesh, const SurfacePoint& point) {
   const float metallic = metallicRoughness(scene, mesh, point).x;
   return glm::clamp(glm::vec3(baseColor(scene, mesh, point)) * (1.0f - metallic), 0.0f, 1.0f);
+}
+
+glm::vec3 reflectance(const Scene& scene, const Mesh& mesh, const SurfacePoint& point) {
+  const glm::vec2 factors = metallicRoughness(scene, mesh, point);
+  const brdf::Lobes lobes = brdf::makeLobes(glm::vec3(baseColor(scene, mesh, point)), factors.x, factors.y,
+                                            scene.materials[std::size_t(mesh.material)].specular);
+  return glm::clamp(lobes.diffuse + lobes.specular, 0.0f, 1.0f);
 }
 
 }  // namespace gloam::trace

@@ -52,5 +52,7 @@ glm::vec3 mappedNormal(const glm::vec3& normal, const glm::vec4& tangent, const 
 
 /// k_d = base (1 - metallic), held to 0..1: no surface sends back more than it receives.
 glm::vec3 diffuseAlbedo(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
+/// k_d + k_s, held to 0..1: what leaves of light that arrives, both lobes together.
+glm::vec3 reflectance(const Scene& scene, const Mesh& mesh, const SurfacePoint& point);
 
 }  // namespace gloam::trace

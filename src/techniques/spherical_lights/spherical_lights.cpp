@@ -13,19 +13,12 @@
 #include "shaders/spherical_lights_shaders.h"
 #include "techniques/sphere_options.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
-#include "techniques/spherical_lights/spherical_lights_rows.h"
+#include "techniques/spherical_lights/spherical_lights_step.h"
 #include "techniques/spherical_lights/spherical_lights_tables.h"
 
 namespace gloam::spherical_lights {
 
 namespace {
-
-constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
-
-int blockingOf(const Settings& settings) {
-  if (settings.choice("blocking") == "per_object") return kPerObject;
-  return settings.flag("reuse") ? kPerSphereReused : kPerSphere;
-}
 
 const std::vector<Option>& options() {
   static const std::vector<Option> options = {
@@ -60,11 +53,21 @@ const std::vector<Option>& options() {
        .default_value = true,
        .help = "what has no spheres (ground, walls, rooms) stands in the light, too, and sends it, as "
                "rectangles"},
+      {.name = "repair",
+       .default_value = true,
+       .help =
+           "pixels that no receiver fits, or between receivers of one surface that disagree, are lit from "
+           "scratch"},
       {.name = "indirect",
        .default_value = true,
        .help = "light that spheres send; without it, shadows alone"},
       windowOption()};
   return options;
+}
+
+int blockingOf(const Settings& settings) {
+  if (settings.choice("blocking") == "per_object") return kPerObject;
+  return settings.flag("reuse") ? kPerSphereReused : kPerSphere;
 }
 
 int visibilityOf(const Settings& settings) {
@@ -81,12 +84,6 @@ bool lampsAreBalls(const frame::FrameInputs& inputs, const Settings& settings) {
     inputs.warnings.push_back(
         "spherical_lights: lamp_radius: there are lamps that are not points; all shine by shadow maps");
   return points;
-}
-
-template <class T>
-gpu::BufferRef uploadRows(gpu::FrameGraph& graph, const char* name, std::vector<T> rows) {
-  if (rows.empty()) rows.push_back(T{});
-  return graph.upload(name, rows);
 }
 
 std::vector<float> cellRows() {
@@ -116,17 +113,6 @@ SphericalLights::SphericalLights(gpu::Device& device)
       solid_angle_fit_(averageFit(Average::kSolidAngle)),
       log_fit_(logFit()) {}
 
-/// What of a frame both passes read.
-struct SphericalLights::Step {
-  gpu::FrameGraph& graph;
-  const frame::FrameInputs& inputs;
-  const Settings& settings;
-  const Rows& rows;
-  bool lamps_are_balls, indirect;
-  gpu::BufferRef light, spheres, objects, meets, glow, blocking_patches, sending_patches, patch_radiance;
-  GatherParams params;
-};
-
 /// First pass: light at surface samples, then what each sphere sends.
 gpu::BufferRef SphericalLights::recordSending(const Step& step) {
   gpu::FrameGraph& graph = step.graph;
@@ -136,8 +122,8 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
   const gpu::BufferRef arriving =
       graph.create("spherical_lights.arriving", gpu::BufferDesc{.bytes = point_count * sizeof(glm::vec3)});
   graph.compute("spherical_lights.samples", spherical_lights_samples_spv)
-      .specialize("blocking", blockingOf(step.settings))
-      .specialize("visibility_kind", visibilityOf(step.settings))
+      .specialize("blocking", step.blocking)
+      .specialize("visibility_kind", step.visibility)
       .specialize("glows", !rows.glow.empty())
       .read("points", points)
       .read("spheres", step.spheres)
@@ -180,51 +166,6 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
   return sent;
 }
 
-/// Second pass: what each receiver gets.
-frame::Lighting SphericalLights::recordGathering(const Step& step, gpu::BufferRef sent) {
-  const frame::ReceiverLevel& level = step.inputs.receivers.at(std::stoi(step.settings.choice("divisor")));
-  const auto image = [&](const char* name, VkFormat format) {
-    return step.graph.create(name,
-                             gpu::ImageDesc{.format = format, .width = level.width, .height = level.height});
-  };
-  const gpu::ImageRef direct = image("spherical_lights.direct", kHalves);
-  const gpu::ImageRef indirect = image("spherical_lights.indirect", kHalves);
-  const bool quick = visibilityOf(step.settings) == kMean && blockingOf(step.settings) == kPerObject &&
-                     step.rows.objects.size() <= kMostKept;
-  auto& pass = step.graph.compute("spherical_lights.gather",
-                                  quick ? spherical_lights_receive_spv : spherical_lights_gather_spv);
-  if (!quick) {
-    pass.specialize("blocking", blockingOf(step.settings))
-        .specialize("visibility_kind", visibilityOf(step.settings))
-        .read("meets", step.meets);
-  } else {
-    pass.read("apart", uploadRows(step.graph, "spherical_lights.apart", step.rows.apart));
-  }
-  pass.specialize("has_indirect", step.indirect)
-      .specialize("glows", !step.rows.glow.empty())
-      .read("receiver_position", level.position)
-      .read("receiver_normal", level.normal_depth)
-      .read("spheres", step.spheres)
-      .read("objects", step.objects)
-      .read("sent", sent)
-      .read("glow", step.glow)
-      .read("blocking_patches", step.blocking_patches)
-      .read("sending_patches", step.sending_patches)
-      .read("patch_radiance", step.patch_radiance)
-      .read("light", step.light)
-      .write("direct", direct)
-      .write("indirect", indirect)
-      .write("visibility", image("spherical_lights.visibility", VK_FORMAT_R32_SFLOAT))
-      .write("unblocked", image("spherical_lights.unblocked", kHalves))
-      .push(step.params)
-      .dispatchOver(direct);
-  frame::Lighting lighting;
-  lighting.has_local_direct = step.lamps_are_balls;
-  lighting.irradiance.push_back({direct, frame::Path::kDirect, level.divisor, true});
-  if (step.indirect) lighting.irradiance.push_back({indirect, frame::Path::kIndirect, level.divisor, true});
-  return lighting;
-}
-
 frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                         const Settings& settings) {
   if (inputs.emission == nullptr) throw Error("spherical_lights", "what spheres send was not set");
@@ -235,6 +176,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   if (!settings.flag("flats")) rows.sending_patches.clear(), rows.blocking_patches.clear();
   if (!settings.flag("indirect")) rows.sending_patches.clear();
   addPatchPoints(rows);
+  listNeighbours(rows, blockingOf(settings));
   const auto count = std::uint32_t(rows.spheres.size());
   const auto patches = std::uint32_t(rows.sending_patches.size());
   const gpu::BufferRef patch_radiance = graph.create(
@@ -250,14 +192,18 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   const Step step{
       .graph = graph,
       .inputs = inputs,
-      .settings = settings,
       .rows = rows,
+      .blocking = blockingOf(settings),
+      .visibility = visibilityOf(settings),
+      .divisor = std::stoi(settings.choice("divisor")),
+      .repair = settings.flag("repair"),
       .lamps_are_balls = balls,
       .indirect = settings.flag("indirect") && count + patches > 0,
       .light = graph.uploadOne("spherical_lights.light", row),
       .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
       .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
       .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
+      .listed = uploadRows(graph, "spherical_lights.listed", rows.listed),
       .glow = uploadRows(graph, "spherical_lights.glow", rows.glow),
       .blocking_patches = uploadRows(graph, "spherical_lights.blocking_patches", rows.blocking_patches),
       .sending_patches = uploadRows(graph, "spherical_lights.sending_patches", rows.sending_patches),

@@ -5,6 +5,7 @@
 // colour, by spheres whose light is shadowed where it arrives and where it goes. README.md has the rest.
 #pragma once
 
+#include "techniques/spherical_lights/spherical_lights_step.h"
 #include "techniques/spherical_lights/spherical_lights_tables.h"
 #include "techniques/technique.h"
 
@@ -19,9 +20,7 @@ class SphericalLights : public Technique {
                          const Settings& settings) override;
 
  private:
-  struct Step;
   gpu::BufferRef recordSending(const Step& step);
-  frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent);
 
   gpu::Buffer cells_;
   Fit area_fit_, solid_angle_fit_;

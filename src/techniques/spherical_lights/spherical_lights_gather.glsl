@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// All light at one receiver, any way (spherical_lights_receive.glsl is the quick one). Includers declare the constants blocking, visibility_kind, has_indirect, glows, the buffers spheres,
-// objects, sent, glow, meets, the uniform block light, and push push.params.
+// All light at one receiver, any way (spherical_lights_receive.glsl is the quick one). Includers declare the constants blocking,
+// visibility_kind, has_indirect, glows, the buffers spheres, objects, sent, glow, meets, the uniform block light, and push push.params.
 #ifndef GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
@@ -111,7 +111,7 @@ Gathered gather(vec3 position, vec3 normal) {
         got.visibility = e[0] / kShZonal0;
       } else if (patches_taken) {
         got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine));
-            } else if (spheres_done && has_indirect) {
+      } else if (spheres_done && has_indirect) {
         from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
         clear_of_spheres = dotOf(GLOAM_SH4_OF(e), cosine);
       } else if (visibility_kind == kDifference) {

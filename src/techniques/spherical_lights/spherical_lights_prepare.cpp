@@ -3,7 +3,7 @@
 //
 // Guerrero, Jeschke, Wimmer 2008, section 4.2: surface sample points and albedo of spherical lights (SL-1, SL-2). Differs from the
 // paper: albedo is cast by rays, not drawn into cube maps, and where a sphere sees none of its own surface it has the mean of what it
-// does see, so that one colour stays one colour; sheets, which have no inside, are met from either side.
+// does see, so that one colour stays one colour; gloss is sent as if it were diffuse; sheets, which have no inside, are met from either side.
 #include <fmt/format.h>
 #include <gloam/spherical_lights.h>
 #include <tbb/parallel_for.h>
@@ -133,7 +133,7 @@ void castColours(const Scene& scene, const Segments& segments, std::size_t s, in
     if (!hit) continue;
     const trace::SurfacePoint point{hit->triangle, hit->u, hit->v};
     const Mesh& mesh = segments.meshOf(*hit);
-    seen.push_back({way, trace::diffuseAlbedo(scene, mesh, point), trace::emission(scene, mesh, point)});
+    seen.push_back({way, trace::reflectance(scene, mesh, point), trace::emission(scene, mesh, point)});
     mean += seen.back().albedo;
   }
   out.albedo = out.glow = sh::ShRgb(kEmissionOrder);

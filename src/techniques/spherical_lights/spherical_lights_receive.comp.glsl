@@ -8,7 +8,10 @@
 #include "techniques/spherical_lights/spherical_lights_shared.h"
 #include "techniques/spherical_lights/spherical_lights_second_pass.glsl"
 
-layout(scalar, set = 0, binding = 5) readonly buffer Apart { uint at[]; } apart;
+layout(constant_id = 0) const int blocking = 0;
+layout(constant_id = 1) const uint most_groups = 32u;
+
+layout(scalar, set = 0, binding = 5) readonly buffer Listed { uint at[]; } listed;
 
 #include "techniques/spherical_lights/spherical_lights_receive.glsl"
 

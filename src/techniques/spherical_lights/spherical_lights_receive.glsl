@@ -1,10 +1,12 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// All light at one receiver, objects blocking objects, visibility of a sphere as exp of the mean log over its disc: no exponential of a
-// function but the last, and every loop runs over the same rows for all receivers, which is what software drivers are quick at. What
-// stands before an object is summed from kept sums of those that are nearer, so nothing is sorted. Includers declare the constants
-// has_indirect and glows, the buffers spheres, objects, sent, glow, apart and those of patches, the uniform block light, and push push.params.
+// All light at one receiver, visibility of a sphere as exp of the mean log over its disc: no exponential of a function but the last,
+// and long loops run over the same rows for all receivers, which is what software drivers are quick at. Groups (objects, or single
+// spheres) are put in order by rank; sums of logs are kept along it, so each sphere finds what stands before its group as one sum,
+// however many there are (SL-14). Of its own object a sphere adds what it does not meet (per object) or takes back what it meets (per
+// sphere): its list. Includers declare the constants blocking, most_groups, has_indirect and glows, the buffers spheres, objects, sent,
+// glow, listed and those of patches, the uniform block light, and push push.params.
 #ifndef GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
@@ -12,14 +14,14 @@
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
 #include "frame/field_shade.glsl"
 
-/// Mean over a disc of the logs of those of its object that stand before it and do not meet it; `bands`: of a mean over the disc.
-float logWithin(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {
+/// Mean over a disc of the logs of those of its list that stand before it; `bands`: of a mean over the disc.
+float logListed(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {
   float sum = 0.0;
   vec3 to_i = spheres.at[i].center - position;
   float own = dot(to_i, to_i);
-  uint first = spheres.at[i].first_apart, end = first + spheres.at[i].apart;
+  uint first = spheres.at[i].first_listed, end = first + spheres.at[i].listed;
   for (uint k = first; k < end; ++k) {
-    uint j = apart.at[k];
+    uint j = listed.at[k];
     vec3 to_j = spheres.at[j].center - position;
     float far = dot(to_j, to_j);
     bool nearer = far < own || (far == own && j < i);
@@ -32,7 +34,8 @@ float logWithin(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) 
 
 Gathered receive(vec3 position, vec3 normal) {
   Gathered got = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-  float kept[16u * kMostKept], far[kMostKept];
+  float kept[16u * most_groups], far[most_groups];
+  uint order[most_groups];
   const bool send = has_indirect || glows;
   Sh4 all = kNothing;
   for (uint o = 0u; o < push.params.objects; ++o) {
@@ -47,20 +50,33 @@ Gathered receive(vec3 position, vec3 normal) {
       far[o] = dot(d, d);
     }
   }
-  for (uint o = 0u; o < (send ? push.params.objects : 0u); ++o) {
-    Sh4 before = kNothing;
-    for (uint q = 0u; q < push.params.objects; ++q) {
-      float stands = far[q] < far[o] || (far[q] == far[o] && q < o) ? 1.0 : 0.0;
-      float f[16];
-      for (uint c = 0u; c < 16u; ++c) f[c] = kept[16u * q + c] * stands;
-      before = plus(before, GLOAM_SH4_OF(f));
+  const uint groups = send ? push.params.objects : 0u;
+  for (uint o = 0u; o < groups; ++o) {
+    uint rank = 0u;
+    for (uint q = 0u; q < groups; ++q) rank += far[q] < far[o] || (far[q] == far[o] && q < o) ? 1u : 0u;
+    order[rank] = o;
+  }
+  // In place of each group's logs the sum of those before it.
+  float running[16] = GLOAM_ARRAY_OF(kNothing);
+  for (uint k = 0u; k < groups; ++k) {
+    uint at = 16u * order[k];
+    for (uint c = 0u; c < 16u; ++c) {
+      float own = kept[at + c];
+      kept[at + c] = running[c];
+      running[c] += own;
     }
+  }
+  for (uint o = 0u; o < groups; ++o) {
+    float f[16];
+    for (uint c = 0u; c < 16u; ++c) f[c] = kept[16u * o + c];
+    Sh4 before = GLOAM_SH4_OF(f);
     uint first = objects.at[o].first, end = first + objects.at[o].count;
     for (uint i = first; i < end; ++i) {
       SeenSphere seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
       vec4 disc = discWeights(seen.sin_half_angle), bands = disc / max(disc.x, 1e-12);
       Sh4 y = basisAt(seen.direction);
-      float log_before = dotOf(scaled(y, bands), before) + logWithin(position, normal, i, seen.direction, bands);
+      float within = logListed(position, normal, i, seen.direction, bands);
+      float log_before = dotOf(scaled(y, bands), before) + (blocking == kPerObject ? within : -within);
       // Of the disc alone, against the clamped cosine.
       float open = max(0.0, dot(disc * vec4(kShCosine0, kShCosine1, kShCosine2, 0.0), zonalAt(dot(seen.direction, normal))));
       float share = open * exp(min(log_before, 0.0));

@@ -64,16 +64,25 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
   for (const frame::Patch& patch : emission.blocking_patches)
     rows.blocking_patches.push_back(patchRow(patch));
   rows.meets = emission.meets;
-  for (std::size_t i = 0; i < rows.spheres.size(); ++i) {
+  return rows;
+}
+
+void listNeighbours(Rows& rows, int blocking) {
+  rows.listed.clear();
+  for (std::uint32_t i = 0; i < rows.spheres.size(); ++i) {
     SphereRow& row = rows.spheres[i];
-    row.first_apart = std::uint32_t(rows.apart.size());
+    row.first_listed = std::uint32_t(rows.listed.size());
     for (std::uint32_t j = 0; j < row.count; ++j) {
       const std::uint32_t word = rows.meets[i * std::size_t(rows.words) + j / 32];
-      if ((word >> (j % 32) & 1u) == 0) rows.apart.push_back(row.first + j);
+      const bool meets = (word >> (j % 32) & 1u) != 0;
+      if (row.first + j != i && meets == (blocking != kPerObject)) rows.listed.push_back(row.first + j);
     }
-    row.apart = std::uint32_t(rows.apart.size()) - row.first_apart;
+    row.listed = std::uint32_t(rows.listed.size()) - row.first_listed;
   }
-  return rows;
+  if (blocking == kPerObject) return;
+  rows.objects.clear();
+  for (std::uint32_t i = 0; i < rows.spheres.size(); ++i)
+    rows.objects.push_back({rows.spheres[i].center, i, 1u});
 }
 
 void addPatchPoints(Rows& rows) {

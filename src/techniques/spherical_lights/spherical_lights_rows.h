@@ -25,8 +25,8 @@ struct Rows {
   std::vector<std::uint32_t> meets;  ///< `words` a sphere
   int words = 1;
   std::vector<PatchRow> sending_patches,
-      blocking_patches;              ///< kPatchPoints points each of the first, after those of spheres
-  std::vector<std::uint32_t> apart;  ///< of each sphere: those of its object that it does not meet
+      blocking_patches;               ///< kPatchPoints points each of the first, after those of spheres
+  std::vector<std::uint32_t> listed;  ///< of each sphere, of its object: see listNeighbours
 };
 
 /// Throws Error where proxies and emission do not fit together.
@@ -37,6 +37,11 @@ void addPatchPoints(Rows& rows);
 /// SL-9: adds point lamps as balls of that radius (metres) that glow as brightly and block nothing; says which stand within an
 /// object. Lamps of other kinds are left out.
 void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, Warnings& warnings);
+
+/// SL-6: fills each sphere's list with those of its object that it does not meet (kPerObject), or those others that it meets.
+/// Per sphere, each
+/// then counts as an object.
+void listNeighbours(Rows& rows, int blocking);
 
 /// SL-6: spheres of different objects that meet, told by how many pairs of objects do; nothing where none do.
 void warnOfMeetingObjects(const Rows& rows, Warnings& warnings);

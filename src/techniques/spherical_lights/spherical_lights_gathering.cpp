@@ -1,0 +1,161 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Guerrero, Jeschke, Wimmer 2008, section 6: the second pass, at receivers of a picture, and from there to all pixels (PX-8). Points
+// that are lit from scratch stand in a picture of their own, so that the same kernel lights them.
+#include <algorithm>
+#include <bit>
+
+#include "shaders/spherical_lights_shaders.h"
+#include "techniques/spherical_lights/spherical_lights_step.h"
+
+namespace gloam::spherical_lights {
+
+namespace {
+
+constexpr int kMostRows = 8192;  // of a picture of points, on any device
+
+/// Points that receive, in a picture; `groups`: of a dispatch over as many as there are, else all.
+struct Points {
+  gpu::ImageRef position, normal;
+  int width = 0, height = 0;
+  gpu::BufferRef groups = {};
+};
+struct Pictures {
+  gpu::ImageRef direct, indirect;
+};
+
+Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& points, const std::string& name) {
+  const auto image = [&](const char* what, VkFormat format) {
+    return step.graph.create(
+        name + what, gpu::ImageDesc{.format = format, .width = points.width, .height = points.height});
+  };
+  const Pictures got{image("direct", kHalves), image("indirect", kHalves)};
+  const bool quick =
+      step.visibility == kMean && step.blocking != kPerSphere && step.rows.objects.size() <= kMostKept;
+  const auto groups = std::bit_ceil(std::max(8u, std::uint32_t(step.rows.objects.size())));
+  auto& pass =
+      step.graph.compute(points.groups ? "spherical_lights.gather_listed" : "spherical_lights.gather",
+                         quick ? spherical_lights_receive_spv : spherical_lights_gather_spv);
+  if (!quick) {
+    pass.specialize("visibility_kind", step.visibility).read("meets", step.meets);
+  } else {
+    pass.specialize("most_groups", groups).read("listed", step.listed);
+  }
+  pass.specialize("blocking", step.blocking)
+      .specialize("has_indirect", step.indirect)
+      .specialize("glows", !step.rows.glow.empty())
+      .read("receiver_position", points.position)
+      .read("receiver_normal", points.normal)
+      .read("spheres", step.spheres)
+      .read("objects", step.objects)
+      .read("sent", sent)
+      .read("glow", step.glow)
+      .read("blocking_patches", step.blocking_patches)
+      .read("sending_patches", step.sending_patches)
+      .read("patch_radiance", step.patch_radiance)
+      .read("light", step.light)
+      .write("direct", got.direct)
+      .write("indirect", got.indirect)
+      .write("visibility", image("visibility", VK_FORMAT_R32_SFLOAT))
+      .write("unblocked", image("unblocked", kHalves))
+      .push(step.params);
+  if (points.groups)
+    pass.dispatchIndirect(points.groups);
+  else
+    pass.dispatchOver(got.direct);
+  return got;
+}
+
+/// Of squares of 2 x 2 pixels, empty.
+gpu::BufferRef emptyList(const Step& step, const std::string& name, std::uint32_t capacity) {
+  const gpu::BufferRef list =
+      step.graph.create(name, gpu::BufferDesc{.bytes = sizeof(PixelList) + 4 * std::size_t(capacity)});
+  step.graph.clear(name, list.slice(0, 4), kPointColumns / 8);
+  step.graph.clear(name, list.slice(4, sizeof(PixelList) - 4), 1);
+  return list;
+}
+
+Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::ReceiverLevel& level,
+                          const Pictures& coarse) {
+  gpu::FrameGraph& graph = step.graph;
+  const frame::GBuffer& gbuffer = step.inputs.gbuffer;
+  const auto image = [&](const char* name, VkFormat format, int width, int height) {
+    return graph.create(name, gpu::ImageDesc{.format = format, .width = width, .height = height});
+  };
+  const Pictures full{image("spherical_lights.direct_full", kHalves, gbuffer.width, gbuffer.height),
+                      image("spherical_lights.indirect_full", kHalves, gbuffer.width, gbuffer.height)};
+  // Of pixels between the same four receivers.
+  const auto blocks = [&](int pixels) {
+    return (pixels + level.divisor / 2 + level.divisor - 1) / level.divisor;
+  };
+  const int columns = blocks(gbuffer.width), rows = blocks(gbuffer.height);
+  const auto divisor = std::uint32_t(level.divisor);
+  const std::uint32_t most = kPointColumns * std::uint32_t(kMostRows);
+  const std::uint32_t squares = std::uint32_t(columns) * std::uint32_t(rows) * divisor * divisor / 4;
+  const std::uint32_t capacity = std::min(squares, most), repair_capacity = std::min(2 * squares, most);
+  const gpu::BufferRef misfits = emptyList(step, "spherical_lights.misfits", capacity),
+                       repairs = emptyList(step, "spherical_lights.repairs", repair_capacity);
+  graph.compute("spherical_lights.upsample", spherical_lights_upsample_spv)
+      .read("frame_view", step.inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("normals", gbuffer.normals)
+      .read("receiver_normal", level.normal_depth)
+      .read("direct", coarse.direct)
+      .read("indirect", coarse.indirect)
+      .readWrite("misfits", misfits)
+      .write("direct_full", full.direct)
+      .write("indirect_full", full.indirect)
+      .push(UpsampleParams{divisor, capacity})
+      .dispatchOver(columns, rows);
+  constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+  const int height = int((repair_capacity + kPointRow - 1) / kPointRow) * 8;
+  const Points points{image("spherical_lights.point_position", kFloats, int(kPointColumns), height),
+                      image("spherical_lights.point_normal", kFloats, int(kPointColumns), height),
+                      int(kPointColumns), height, repairs};
+  graph.compute("spherical_lights.widen", spherical_lights_widen_spv)
+      .read("frame_view", step.inputs.view)
+      .read("depth", gbuffer.depth)
+      .read("normals", gbuffer.normals)
+      .read("receiver_normal", level.normal_depth)
+      .read("direct", coarse.direct)
+      .read("indirect", coarse.indirect)
+      .read("misfits", misfits)
+      .readWrite("repairs", repairs)
+      .readWrite("direct_full", full.direct)
+      .readWrite("indirect_full", full.indirect)
+      .write("point_position", points.position)
+      .write("point_normal", points.normal)
+      .push(WidenParams{divisor, capacity, repair_capacity})
+      .dispatchIndirect(misfits);
+  const Pictures repaired = recordPoints(step, sent, points, "spherical_lights.point_");
+  graph.compute("spherical_lights.repair", spherical_lights_repair_spv)
+      .read("point_direct", repaired.direct)
+      .read("point_indirect", repaired.indirect)
+      .read("repairs", repairs)
+      .readWrite("direct_full", full.direct)
+      .readWrite("indirect_full", full.indirect)
+      .push(UpsampleParams{divisor, repair_capacity})
+      .dispatchIndirect(repairs);
+  return full;
+}
+
+}  // namespace
+
+frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent) {
+  const frame::ReceiverLevel& level = step.inputs.receivers.at(step.divisor);
+  Pictures got = recordPoints(step, sent, {level.position, level.normal_depth, level.width, level.height},
+                              "spherical_lights.");
+  int divisor = level.divisor;
+  if (divisor > 1 && step.repair) {
+    got = recordUpsampling(step, sent, level, got);
+    divisor = 1;
+  }
+  frame::Lighting lighting;
+  lighting.has_local_direct = step.lamps_are_balls;
+  lighting.irradiance.push_back({got.direct, frame::Path::kDirect, divisor, true});
+  if (step.indirect) lighting.irradiance.push_back({got.indirect, frame::Path::kIndirect, divisor, true});
+  return lighting;
+}
+
+}  // namespace gloam::spherical_lights
