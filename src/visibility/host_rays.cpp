@@ -27,6 +27,7 @@ void HostRays::reads(gpu::HostPass& pass, const frame::GpuScene& scene) {
 
 void HostRays::update(const gpu::HostAccess& access, const frame::GpuScene& scene) {
   state_->world.update(access, scene);
+  state_->world.tracer();  // built here, not by the threads that trace
 }
 
 void HostRays::trace(std::span<const Place> from, std::span<const Place> to,

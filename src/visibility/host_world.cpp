@@ -9,7 +9,7 @@ namespace gloam::visibility {
 struct HostWorld::State {
   Scene scene;
   PosedScene posed;
-  std::unique_ptr<trace::Tracer> tracer;
+  mutable std::unique_ptr<trace::Tracer> tracer;  // made when it is first asked for
   std::uint64_t layout = 0, pose = 0;
   std::vector<frame::InstanceRow> rows;  // as the tracer has them
 };
@@ -43,7 +43,7 @@ void HostWorld::reads(gpu::HostPass& pass, const frame::GpuScene& scene) {
 
 void HostWorld::update(const gpu::HostAccess& access, const frame::GpuScene& scene) {
   State& s = *state_;
-  const bool deformed = anyDeformed(scene), same_layout = s.tracer && s.layout == scene.layoutRevision();
+  const bool deformed = anyDeformed(scene), same_layout = s.layout == scene.layoutRevision();
   if (same_layout && !deformed && sameRows(s.rows, scene.instances())) return;
   s.tracer.reset();  // refers to the scene
   if (!same_layout) s.scene = downloadScene(scene);
@@ -66,11 +66,12 @@ void HostWorld::update(const gpu::HostAccess& access, const frame::GpuScene& sce
       instance.world_from_object = glm::mat4(s.rows[i].world_from_object);
     }
   }
-  s.tracer = std::make_unique<trace::Tracer>(s.scene, s.posed);
 }
 
 const trace::Tracer& HostWorld::tracer() const {
-  return *state_->tracer;
+  const State& s = *state_;
+  if (!s.tracer) s.tracer = std::make_unique<trace::Tracer>(s.scene, s.posed);
+  return *s.tracer;
 }
 const Scene& HostWorld::scene() const {
   return state_->scene;

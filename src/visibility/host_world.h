@@ -19,11 +19,11 @@ class HostWorld {
 
   /// Says what update() will read.
   static void reads(gpu::HostPass& pass, const frame::GpuScene& scene);
-  /// Inside that pass, which runs before the scene's next pose(): takes what moved; nothing where nothing did. Throws Error where
-  /// the hierarchy does not fit into memory.
+  /// Inside that pass, which runs before the scene's next pose(): takes what moved; nothing where nothing did.
   void update(const gpu::HostAccess& access, const frame::GpuScene& scene);
 
   // ---- After an update ----
+  /// Built when it is first asked for after something moved, by one thread. Throws Error where it does not fit into memory.
   const trace::Tracer& tracer() const;
   /// Meshes, materials and textures (of at most 1024 texels a side) as trace/surface.h reads them. Meshes have positions, texture
   /// coordinates, colours and triangles, no normals.

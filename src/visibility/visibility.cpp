@@ -6,6 +6,7 @@
 
 #include <atomic>
 
+#include "visibility/device_rays.h"
 #include "visibility/host_sight.h"
 #include "visibility/host_world.h"
 
@@ -16,9 +17,10 @@ Means meansNamed(const std::string& name) {
 }
 
 struct Visibility::State {
-  explicit State(gpu::Device& d) : device(d) {}
+  explicit State(gpu::Device& d) : device(d), device_rays(d) {}
   gpu::Device& device;
   HostWorld world;
+  DeviceRays device_rays;
   std::atomic<std::uint64_t> rays{0};
 };
 
@@ -53,7 +55,8 @@ HostWorld& Visibility::world() {
 }
 
 Means Visibility::choose(Means means) const {
-  return means == Means::kAuto ? Means::kHost : means;
+  if (means != Means::kAuto) return means;
+  return state_->device.info().software ? Means::kHost : Means::kDevice;
 }
 
 std::uint64_t Visibility::tracedRays() const {
@@ -61,13 +64,17 @@ std::uint64_t Visibility::tracedRays() const {
 }
 
 gpu::BufferRef Visibility::record(gpu::FrameGraph& graph, const std::string& name,
-                                  const frame::GpuScene& scene, const Question& question, Means /*means*/) {
+                                  const frame::GpuScene& scene, const Question& question, Means means) {
   State& s = *state_;
   const std::size_t bytes = std::size_t(question.point_count) * question.words * sizeof(std::uint32_t);
-  const bool on_host = true;
+  const bool on_host = choose(means) == Means::kHost;
   const gpu::BufferRef visible =
       graph.create(name + "_bits", gpu::BufferDesc{.bytes = bytes, .host_visible = on_host});
   if (bytes == 0) return visible;
+  if (!on_host) {
+    s.device_rays.record(graph, name, scene, s.world, question, visible);
+    return visible;
+  }
   auto& pass = graph.host(name);
   HostWorld::reads(pass, scene);
   pass.read(question.points).read(question.lights).read(question.sets).write(visible);

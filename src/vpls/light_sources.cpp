@@ -101,7 +101,8 @@ glm::vec3 EntryFaces::point(const glm::vec2& u) const {
   share[axis] = direction_[axis] > 0.0f ? 0.0f : 1.0f;
   share[(axis + 1) % 3] = rest;
   share[(axis + 2) % 3] = u.y;
-  return glm::mix(low_, high_, share);
+  // A little before the face: a flat scene lies on it.
+  return glm::mix(low_, high_, share) - 1e-3f * glm::distance(low_, high_) * direction_;
 }
 
 double lampPower(const frame::LightRow& lamp, const glm::vec3& low, const glm::vec3& high) {

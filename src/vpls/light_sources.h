@@ -48,6 +48,7 @@ class EntryFaces {
   EntryFaces(const glm::vec3& low, const glm::vec3& high, const glm::vec3& direction);
   /// Square metres across the direction.
   float area() const { return area_; }
+  /// A point a little before one of them, evenly spread as seen along the direction.
   glm::vec3 point(const glm::vec2& u) const;
 
  private:

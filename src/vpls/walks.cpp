@@ -30,7 +30,7 @@ using visibility::SightSet;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kGoOn = 0.5f;         // share of paths
 constexpr float kLeastCosine = 0.1f;  // what a path covers at grazing incidence stays bounded
-constexpr int kMostSets = 256, kMostBounces = 16;
+constexpr int kMostSets = 256, kMostRows = 1 << 24, kMostBounces = 16;
 
 // Pairs of dimensions of a path, and of rows for sources.
 constexpr std::uint32_t kStart = 0, kSecond = 1, kSide = 2, kGlow = 3, kSky = 4, kLamp = 5, kBounce = 8;
@@ -237,6 +237,15 @@ struct Making {
   }
 };
 
+void checkOptions(const WalkOptions& options) {
+  if (options.sets < 0 || options.sets > kMostSets)
+    throw Error("virtual lights", fmt::format("{} sets; expected 0 to {}", options.sets, kMostSets));
+  for (const int count : {options.direct, options.indirect, options.bounces, options.most_lamps}) {
+    if (count < 0 || count > kMostRows)
+      throw Error("virtual lights", fmt::format("{} rows or bounces; expected 0 to {}", count, kMostRows));
+  }
+}
+
 }  // namespace
 
 struct Walker::State {
@@ -251,11 +260,7 @@ Walker::~Walker() = default;
 
 Walks Walker::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const WalkOptions& options,
                      visibility::HostWorld& world) {
-  if (options.sets < 0 || options.sets > kMostSets || options.direct < 0 || options.indirect < 0 ||
-      options.bounces < 0 || options.most_lamps < 0)
-    throw Error("virtual lights",
-                fmt::format("{} sets of {} + {} rows, {} bounces; 0 to {} sets can be made of 0 rows or more",
-                            options.sets, options.direct, options.indirect, options.bounces, kMostSets));
+  checkOptions(options);
   const std::vector<frame::LightRow>& lamps = inputs.shadow_maps.lights;
   Plan plan;
   plan.sets = options.sets;
@@ -279,6 +284,7 @@ Walks Walker::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, c
   pass.write(walks.rows).write(walks.sets);
   pass.run([&s, &world, &scene = inputs.scene, plan, walks, lamps](gpu::HostAccess& access) {
     world.update(access, scene);
+    world.tracer();  // built here, not by the threads that trace
     if (s.pose_revision != world.poseRevision() || s.layout_revision != world.layoutRevision()) {
       s.emitters = Emitters(world);
       s.pose_revision = world.poseRevision();

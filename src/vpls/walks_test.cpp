@@ -1,0 +1,435 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+#include "vpls/walks.h"
+
+#include <tbb/global_control.h>
+
+#include <cstring>
+#include <numbers>
+
+#include <gloam/lights.h>
+
+#include "frame/test_frame.h"
+#include "math/punctual.h"
+#include "math/sampling.h"
+#include "shaders/vpls_test_shaders.h"
+#include "visibility/host_world.h"
+
+namespace gloam::vpls {
+namespace {
+
+using visibility::SightSet;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+struct Made {
+  std::vector<WalkVpl> rows;
+  std::vector<SightSet> sets;
+  std::uint32_t stride = 0;
+  std::span<const WalkVpl> of(std::size_t s) const {
+    return std::span(rows).subspan(sets[s].first, sets[s].count);
+  }
+  /// Watts that leave surfaces in a set, at one bounce.
+  glm::vec3 flux(std::size_t s, std::uint32_t bounce) const {
+    glm::vec3 sum(0.0f);
+    for (const WalkVpl& row : of(s)) sum += row.bounce == bounce ? kPi * row.light : glm::vec3(0.0f);
+    return sum;
+  }
+};
+
+/// A walker and a scene, frame after frame.
+struct Stage {
+  explicit Stage(const Scene& scene) : frame(scene), sight(gpu::testDevice()) {}
+  Made make(const Scene& scene, const WalkOptions& options, float time_s = 0.0f) {
+    Walks walks;
+    frame.draw(pose(scene, time_s), frame::cameraAt({0, 3, 6}, {0, 0, 0}), {.width = 8, .height = 8},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 walks = walker.record(graph, inputs, options, sight.world());
+                 return frame::Lighting{};
+               });
+    Made made;
+    made.stride = walks.stride;
+    if (walks.set_count == 0) return made;
+    made.rows = walks.rows.buffer().download<WalkVpl>();
+    made.sets = walks.sets.buffer().download<SightSet>();
+    return made;
+  }
+  frame::TestFrame frame;
+  visibility::Visibility sight;
+  Walker walker;
+};
+
+Made make(const Scene& scene, const WalkOptions& options) {
+  return Stage(scene).make(scene, options);
+}
+
+/// The slow twin of walks.glsl.
+glm::vec3 arriving(const WalkVpl& vpl, const glm::vec3& place, glm::vec3& to_light) {
+  to_light = vpl.end.position;
+  if (vpl.end.kind == visibility::kSightDirectional) return vpl.light;
+  const glm::vec3 between = vpl.end.position - place;
+  const float distance = std::max(glm::length(between), 1e-4f);
+  to_light = between / distance;
+  const float cosine = -glm::dot(to_light, vpl.end.normal);
+  if (vpl.end.kind == visibility::kSightLamp)
+    return vpl.light * punctual::rangeFactor(distance, vpl.range) *
+           punctual::coneFactor(cosine, vpl.cos_inner, vpl.cos_outer) / (distance * distance);
+  const float facing =
+      vpl.end.kind == visibility::kSightBothSides ? std::abs(cosine) : std::max(cosine, 0.0f);
+  return vpl.light * facing / std::max(distance * distance, vpl.bound);
+}
+
+glm::vec3 irradiance(std::span<const WalkVpl> rows, const glm::vec3& place, const glm::vec3& normal) {
+  glm::vec3 sum(0.0f), way;
+  for (const WalkVpl& row : rows) {
+    const glm::vec3 light = arriving(row, place, way);
+    sum += light * std::max(0.0f, glm::dot(way, normal));
+  }
+  return sum;
+}
+
+Light lampOf(Light::Type type, const glm::vec3& intensity = {3, 2, 1}) {
+  Light light;
+  light.name = "lamp";
+  light.type = type;
+  light.intensity = intensity;
+  return light;
+}
+
+Mesh squareAt(float half, float height) {
+  return shapes::patch({-half, height, half}, {1, 0, 0}, {0, 0, -1}, {0.0f, half, 2 * half},
+                       {0.0f, half, 2 * half});
+}
+
+void addBox(SceneBuilder& builder, const glm::vec3& albedo) {
+  builder.place("box", shapes::roundedBox({1, 1, 1}, 0.05f, 0.5f, 2), builder.diffuse("white", albedo));
+}
+
+Scene boxWithLamp(const glm::vec3& albedo, const glm::vec3& lamp, Light::Type type = Light::Type::kPoint) {
+  SceneBuilder builder("box");
+  addBox(builder, albedo);
+  builder.light(lampOf(type), lamp);
+  return builder.finish();
+}
+
+/// A square of side 2 that glows, a metre above a plane.
+Scene glowingSquare(const glm::vec3& radiance, const glm::vec3& albedo = glm::vec3(0.5f)) {
+  SceneBuilder builder("square");
+  const int glow = builder.diffuse("glow", glm::vec3(0.0f));
+  builder.material(glow).emission = radiance;
+  builder.place("square", squareAt(1.0f, 1.0f), glow);
+  builder.place("floor", squareAt(4.0f, 0.0f), builder.diffuse("floor", albedo));
+  return builder.finish();
+}
+
+void expectNear(const glm::vec3& got, const glm::vec3& want, float relative, const std::string& what) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], want[c], relative * want[c] + 1e-7f) << what << ", " << c;
+}
+
+// 4 pi I leaves a lamp; after b walls of albedo rho in a closed box, rho^b of it. Each set holds all of it.
+TEST(Walks, EachBounceInAClosedBoxHoldsItsPower) {
+  const glm::vec3 albedo{0.9f, 0.5f, 0.25f};
+  const Made made =
+      make(boxWithLamp(albedo, {0.3f, -0.2f, 0.5f}), {.sets = 16, .indirect = 60, .bounces = 4});
+  ASSERT_EQ(made.sets.size(), 16u);
+  for (std::size_t s = 0; s < 16; ++s) {
+    glm::vec3 want = 4.0f * kPi * glm::vec3(3, 2, 1);
+    for (std::uint32_t b = 1; b <= 4; ++b) {
+      want *= albedo;
+      expectNear(made.flux(s, b), want, 1e-4f, "set " + std::to_string(s) + ", bounce " + std::to_string(b));
+    }
+    EXPECT_EQ(made.sets[s].lamps, 1u);
+    EXPECT_EQ(made.sets[s].direct, 1u);
+    EXPECT_LE(made.sets[s].count, 61u);
+    EXPECT_GE(made.sets[s].count, 55u);
+  }
+}
+
+TEST(Walks, WhatGlowsInABoxLightsItWithAllItsPower) {
+  SceneBuilder builder("glowing");
+  addBox(builder, glm::vec3(0.5f));
+  const int glow = builder.diffuse("glow", glm::vec3(0.0f));
+  builder.material(glow).emission = {5, 3, 1};
+  builder.place("square", squareAt(0.2f, 0.1f), glow);
+  const Made made = make(builder.finish(), {.sets = 4, .indirect = 32, .bounces = 2});
+  for (std::size_t s = 0; s < 4; ++s) {
+    expectNear(made.flux(s, 1), 0.5f * 2.0f * kPi * 0.16f * glm::vec3(5, 3, 1), 1e-4f, "first");
+    glm::vec3 direct(0.0f);
+    for (const WalkVpl& row : made.of(s).first(made.sets[s].direct)) direct += row.light;
+    expectNear(direct, 0.16f * glm::vec3(5, 3, 1), 1e-4f, "square metres times radiance");
+  }
+}
+
+TEST(Walks, SpotsSendWhatTheirConeHolds) {
+  Scene scene = boxWithLamp(glm::vec3(1.0f), {0, 0, 0}, Light::Type::kSpot);
+  for (const float outer_deg : {20.0f, 60.0f, 100.0f}) {
+    scene.lights[0].inner_cone_rad = glm::radians(0.5f * outer_deg);
+    scene.lights[0].outer_cone_rad = glm::radians(outer_deg);
+    const float cos_inner = std::cos(0.5f * glm::radians(outer_deg)),
+                cos_outer = std::cos(glm::radians(outer_deg));
+    const glm::vec3 want =
+        2.0f * kPi * glm::vec3(3, 2, 1) * ((1.0f - cos_inner) + (cos_inner - cos_outer) / 3.0f);
+    const Made made = make(scene, {.sets = 1, .indirect = 1024, .bounces = 1});
+    expectNear(made.flux(0, 1), want, 0.01f, std::to_string(outer_deg));
+  }
+}
+
+// Below the middle of the square: four times a quarter's form factor to a parallel element at its corner.
+TEST(Walks, AreaLightAgainstItsFormFactor) {
+  const glm::vec3 radiance{4, 2, 1};
+  const float root = std::sqrt(2.0f);
+  const glm::vec3 want =
+      4.0f * radiance * (1.0f / root) * std::atan(1.0f / root);  // pi L 4 / (2 pi) (2 / root) atan(1 / root)
+  const Made made = make(glowingSquare(radiance), {.sets = 64, .direct = 16, .indirect = 0, .bounces = 0});
+  glm::vec3 mean(0.0f);
+  float squares = 0.0f;
+  for (std::size_t s = 0; s < 64; ++s) {
+    const glm::vec3 got = irradiance(made.of(s), {0, 0, 0}, {0, 1, 0});
+    expectNear(got, want, 0.3f, "set " + std::to_string(s));
+    mean += got / 64.0f;
+    squares += (got.r - want.r) * (got.r - want.r) / 64.0f;
+  }
+  // Sets know of each other: the mean of all errs by less than a mean of strangers, a root of 64 less than each.
+  expectNear(mean, want, 0.003f, "all");
+  EXPECT_LT(std::abs(mean.r - want.r), 2.0f * std::sqrt(squares) / 8.0f + 1e-4f);
+  for (std::size_t s = 1; s < 64; ++s) EXPECT_NE(made.of(s)[0].end.position, made.of(0)[0].end.position);
+}
+
+TEST(Walks, EvenSkyLightsAPlaneFromBothSides) {
+  SceneBuilder builder("sky");
+  builder.place("floor", squareAt(2.0f, 0.0f), builder.diffuse("floor", glm::vec3(0.5f)));
+  Scene scene = builder.finish();
+  scene.environment.name = "even";
+  scene.environment.width = 64;
+  scene.environment.height = 32;
+  scene.environment.radiance.assign(64 * 32, glm::vec3(2.0f));
+  const Made made = make(scene, {.sets = 64, .direct = 16, .indirect = 16, .bounces = 1});
+  glm::vec3 facing(0.0f), lit(0.0f);
+  for (std::size_t s = 0; s < 64; ++s) {
+    const auto direct = made.of(s).first(made.sets[s].direct);
+    EXPECT_EQ(direct.size(), 16u);
+    facing += irradiance(direct, {0, 0, 0}, glm::normalize(glm::vec3(1, 2, 3))) / 64.0f;
+    lit += made.flux(s, 1) / 64.0f;
+  }
+  expectNear(facing, glm::vec3(2.0f * kPi), 0.01f, "pi L");
+  expectNear(lit, glm::vec3(2.0f * 16.0f * 0.5f * 2.0f * kPi), 0.01f, "both sides");
+}
+
+// A sun of one texel, brighter than half floats hold, takes its part of the rows and no more, and keeps its light.
+TEST(Walks, SmallSunKeepsItsLight) {
+  SceneBuilder builder("sun");
+  builder.place("floor", squareAt(2.0f, 0.0f), builder.diffuse("floor", glm::vec3(0.5f)));
+  Scene scene = builder.finish();
+  Environment& sky = scene.environment;
+  sky.name = "sun";
+  sky.width = 256;
+  sky.height = 128;
+  sky.radiance.assign(256 * 128, glm::vec3(0.2f));
+  sky.radiance[30 * 256 + 40] = glm::vec3(1e6f, 5e5f, 1e5f);
+  sky.rotation_rad = 1.0f;
+  const float row = kPi / 128.0f;
+  const float solid_angle = (std::cos(30.0f * row) - std::cos(31.0f * row)) * 2.0f * kPi / 256.0f;
+  const glm::vec3 sun = solid_angle * glm::vec3(1e6f, 5e5f, 1e5f);
+  const Made made = make(scene, {.sets = 16, .direct = 32, .indirect = 0, .bounces = 0});
+  glm::vec3 bright(0.0f), rest(0.0f);
+  int suns = 0;
+  for (const WalkVpl& light : made.rows) {
+    const bool is_sun = light.light.r > 2.0f * light.light.b;
+    (is_sun ? bright : rest) += light.light / 16.0f;
+    suns += is_sun ? 1 : 0;
+  }
+  expectNear(bright, sun, 0.02f, "sun");
+  expectNear(rest, glm::vec3(0.2f * 4.0f * kPi), 0.05f, "sky");
+  EXPECT_GT(suns, 16 * 12);
+  EXPECT_LT(suns, 16 * 20);
+  const float sine = std::sin(kPi * (0.5f - 30.5f / 128.0f)),
+              angle = (40.5f / 256.0f - 0.5f) * 2.0f * kPi - 1.0f;
+  const float across = std::sqrt(1.0f - sine * sine);
+  for (const WalkVpl& light : made.rows) {
+    if (light.light.r > 2.0f * light.light.b) {
+      EXPECT_GT(
+          glm::dot(light.end.position, glm::vec3(across * std::cos(angle), sine, across * std::sin(angle))),
+          0.999f);
+    }
+  }
+}
+
+TEST(Walks, SunsAndDiscs) {
+  SceneBuilder builder("sun");
+  builder.place("floor", squareAt(2.0f, 0.0f), builder.diffuse("floor", glm::vec3(0.5f)));
+  builder.light(lampOf(Light::Type::kDirectional), {0, 5, 0}, glm::normalize(glm::vec3(1, -1, 0)));
+  Scene scene = builder.finish();
+  Made made = make(scene, {.sets = 4, .direct = 8, .indirect = 64, .bounces = 1});
+  for (std::size_t s = 0; s < 4; ++s) {
+    ASSERT_EQ(made.sets[s].lamps, 1u);
+    expectNear(irradiance(made.of(s).first(1), {0, 0, 0}, {0, 1, 0}), glm::vec3(3, 2, 1) / std::sqrt(2.0f),
+               1e-4f, "sun");
+    expectNear(made.flux(s, 1), 0.5f * 16.0f / std::sqrt(2.0f) * glm::vec3(3, 2, 1), 1e-3f, "lit");
+  }
+  const std::string disc[] = {"disc?azimuth=30&elevation=50&radius=4&irradiance=3"};
+  scene.lights[0].intensity = glm::vec3(0.0f);
+  scene.environment = describeLights(AnimatedLights::parse(disc).at(0.0f));
+  made = make(scene, {.sets = 4, .direct = 8, .indirect = 0, .bounces = 0});
+  for (std::size_t s = 0; s < 4; ++s) {
+    EXPECT_EQ(made.sets[s].lamps, 0u);
+    glm::vec3 sum(0.0f);
+    for (const WalkVpl& row : made.of(s)) sum += row.light;
+    expectNear(sum, glm::vec3(3.0f), 0.01f, "disc");
+  }
+}
+
+// Most lights stay where they are, or nearly, when a lamp moves by a millimetre; none appears, none goes.
+TEST(Walks, LightsGlide) {
+  Scene scene = boxWithLamp(glm::vec3(0.7f), {0.3f, -0.2f, 0.5f});
+  Stage stage(scene);
+  const WalkOptions options{.sets = 16, .indirect = 48, .bounces = 3};
+  const Made before = stage.make(scene, options);
+  for (Node& node : scene.nodes) {
+    if (node.light != kNone) node.translation.x += 1e-3f;
+  }
+  const Made after = stage.make(scene, options);
+  ASSERT_EQ(before.rows.size(), after.rows.size());
+  int far = 0, all = 0;
+  for (std::size_t i = 0; i < before.rows.size(); ++i) {
+    EXPECT_EQ(before.rows[i].end.kind, after.rows[i].end.kind);
+    if (before.rows[i].end.kind != visibility::kSightSurface) continue;
+    ++all;
+    far += glm::distance(before.rows[i].end.position, after.rows[i].end.position) > 0.01f ? 1 : 0;
+    expectNear(after.rows[i].light, before.rows[i].light, 1e-4f, "flux");
+  }
+  EXPECT_GT(all, 16 * 40);
+  EXPECT_LT(far, all / 20);
+  const Made again = stage.make(scene, options);
+  EXPECT_EQ(std::memcmp(after.rows.data(), again.rows.data(), after.rows.size() * sizeof(WalkVpl)), 0);
+}
+
+TEST(Walks, SameLightsOnAnyNumberOfThreads) {
+  const Scene scene = glowingSquare({4, 2, 1});
+  const WalkOptions options{.sets = 64, .direct = 16, .indirect = 32, .bounces = 3};
+  const Made many = make(scene, options);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Made few = make(scene, options);
+  ASSERT_EQ(many.rows.size(), few.rows.size());
+  EXPECT_EQ(std::memcmp(many.rows.data(), few.rows.data(), few.rows.size() * sizeof(WalkVpl)), 0);
+}
+
+TEST(Walks, ManyLampsAreChosenByPower) {
+  SceneBuilder builder("lamps");
+  builder.place("floor", squareAt(2.0f, 0.0f), builder.diffuse("floor", glm::vec3(0.5f)));
+  glm::vec3 all(0.0f);
+  for (int i = 0; i < 40; ++i) {
+    const glm::vec3 intensity = float(i % 7 + 1) * glm::vec3(1.0f, 0.5f, 0.2f);
+    builder.light(lampOf(Light::Type::kPoint, intensity), {float(i), 2, 0});
+    all += intensity;
+  }
+  const Made made = make(builder.finish(), {.sets = 64, .direct = 0, .indirect = 0, .most_lamps = 8});
+  glm::vec3 sum(0.0f);
+  for (std::size_t s = 0; s < 64; ++s) {
+    EXPECT_EQ(made.sets[s].lamps, 8u);
+    for (const WalkVpl& row : made.of(s)) sum += row.light / 64.0f;
+  }
+  expectNear(sum, all, 1e-3f, "all");
+}
+
+TEST(Walks, TexturesGlowAndHolesLetPass) {
+  SceneBuilder builder("half");
+  const int glow = builder.diffuse("glow", glm::vec3(0.0f));
+  const int map = builder.texture({"half", 2, 1, {255, 255, 255, 255, 0, 0, 0, 255}});
+  builder.material(glow).emission = glm::vec3(4.0f);
+  builder.material(glow).emission_map.texture = map;
+  builder.material(glow).emission_map.nearest = true;
+  Mesh square = squareAt(1.0f, 0.5f);
+  square.uv_sets.assign(1, {});
+  for (const glm::vec3& p : square.positions) square.uv_sets[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f);
+  builder.place("square", square, glow);
+  const int fence = builder.diffuse("fence", glm::vec3(0.5f));
+  builder.material(fence).alpha_mask = true;
+  builder.material(fence).base_color.a = 0.0f;
+  builder.place("fence", squareAt(3.0f, 0.3f), fence);
+  builder.place("floor", squareAt(30.0f, 0.0f), builder.diffuse("floor", glm::vec3(1.0f)));
+  const Made made = make(builder.finish(), {.sets = 16, .direct = 16, .indirect = 32, .bounces = 1});
+  glm::vec3 direct(0.0f);
+  for (std::size_t s = 0; s < 16; ++s) {
+    for (const WalkVpl& row : made.of(s)) {
+      if (row.bounce == 0) {
+        direct += row.light / 16.0f;
+        EXPECT_LE(row.end.position.x, 1e-4f);
+      } else {
+        EXPECT_NEAR(row.end.position.y, 0.0f, 1e-4f);
+      }
+    }
+  }
+  expectNear(direct, glm::vec3(2.0f * 4.0f), 0.02f, "half of it");
+}
+
+TEST(Walks, NoLightNoRows) {
+  Scene dark = boxWithLamp(glm::vec3(0.5f), {0, 0, 0});
+  dark.lights[0].intensity = glm::vec3(0.0f);
+  for (const Scene& scene :
+       {dark, glowingSquare(glm::vec3(0.0f)), glowingSquare({1, 1, 1}, glm::vec3(0.0f))}) {
+    const Made made = make(scene, {.sets = 4, .direct = 8, .indirect = 8, .bounces = 2});
+    ASSERT_EQ(made.sets.size(), 4u);
+    for (std::size_t s = 0; s < 4; ++s) {
+      for (const WalkVpl& row : made.of(s)) EXPECT_EQ(row.bounce, 0u);
+      if (scene.name == "box") {
+        EXPECT_EQ(made.sets[s].count, 0u);
+      }
+    }
+  }
+}
+
+TEST(Walks, OddNumbersHaveAnswers) {
+  const Scene scene = boxWithLamp(glm::vec3(0.5f), {0.1f, 0, 0});
+  EXPECT_TRUE(make(scene, {.sets = 0}).sets.empty());
+  EXPECT_TRUE(make(scene, {.sets = 4, .direct = 0, .indirect = 0, .most_lamps = 0}).sets.empty());
+  EXPECT_THROW(make(scene, {.sets = 257}), Error);
+  EXPECT_THROW(make(scene, {.sets = 4, .direct = -1}), Error);
+  EXPECT_THROW(make(scene, {.sets = 256, .indirect = 1 << 30}), Error);
+  const Made many = make(scene, {.sets = 1, .direct = 0, .indirect = 100000, .bounces = 3});
+  EXPECT_GT(many.sets.at(0).count, 99900u);
+  expectNear(many.flux(0, 3), 4.0f * kPi * 0.125f * glm::vec3(3, 2, 1), 1e-3f, "third");
+  const Made few =
+      make(scene, {.sets = 4, .direct = 0, .indirect = 2, .bounces = 8});  // fewer rows than bounces
+  expectNear(few.flux(3, 2), 4.0f * kPi * 0.25f * glm::vec3(3, 2, 1), 1e-4f, "second");
+}
+
+TEST(Walks, ShadersEvaluateThemAlike) {
+  std::vector<WalkVpl> rows(64);
+  std::vector<glm::vec3> places;
+  sampling::Rng rng(5);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    WalkVpl& row = rows[i];
+    row.end.kind = std::uint32_t(i % 4);
+    row.end.position = row.end.kind == visibility::kSightDirectional ? sampling::uniformSphere(rng.next2())
+                                                                     : 2.0f * rng.next3();
+    row.end.normal = sampling::uniformSphere(rng.next2());
+    row.light = rng.next3();
+    row.bound = 0.1f * rng.next();
+    row.cos_inner = i % 8 < 4 ? -1.0f : 0.9f;
+    row.cos_outer = i % 8 < 4 ? -2.0f : 0.1f;
+    row.range = i % 3 == 0 ? 0.0f : 2.0f;
+    if (i < 16) places.push_back(2.0f * rng.next3());
+  }
+  gpu::Device& device = gpu::testDevice();
+  gpu::FrameGraph graph(device);
+  graph.begin();
+  const auto out = graph.create(
+      "test.arriving", gpu::BufferDesc{.bytes = rows.size() * places.size() * 2 * sizeof(glm::vec3)});
+  graph.compute("test.arriving", walks_arriving_spv)
+      .read("rows", graph.upload("test.rows", rows))
+      .read("places", graph.upload("test.places", places))
+      .write("arriving", out)
+      .dispatchOver(int(rows.size()), int(places.size()));
+  graph.execute();
+  graph.wait();
+  const auto got = out.buffer().download<glm::vec3>();
+  for (std::size_t k = 0; k < rows.size() * places.size(); ++k) {
+    glm::vec3 way;
+    expectNear(got[2 * k], arriving(rows[k % rows.size()], places[k / rows.size()], way), 1e-4f,
+               "irradiance");
+    EXPECT_LT(glm::distance(got[2 * k + 1], way), 1e-5f);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::vpls
