@@ -90,6 +90,23 @@ struct Stage {
     graph.wait();
   }
 
+  /// Milliseconds of a frame's walks; where things moved, of another hierarchy, too.
+  double walk(const PosedScene& posed, const PosedCamera& camera) {
+    graph.setTimed(true);
+    draw(posed, camera, [&](gpu::FrameGraph& g, const frame::FrameInputs& inputs) {
+      walker.record(g, inputs, kWalks, sight.world());
+      return frame::Lighting{};
+    });
+    return millisecondsOf("vpls.walks");
+  }
+
+  double millisecondsOf(const std::string& name) {
+    double milliseconds = 0.0;
+    for (const gpu::PassTime& pass : graph.times())
+      milliseconds += pass.name == name ? pass.milliseconds : 0.0;
+    return milliseconds;
+  }
+
   /// Milliseconds of the pass, by a means.
   double ask(const PosedScene& posed, const PosedCamera& camera, visibility::Means means,
              std::vector<std::uint32_t>& bits) {
@@ -106,11 +123,8 @@ struct Stage {
       visible = sight.record(g, "bench.visibility", inputs.scene, question, means);
       return frame::Lighting{};
     });
-    double milliseconds = 0.0;
-    for (const gpu::PassTime& pass : graph.times())
-      milliseconds += pass.name == "bench.visibility" ? pass.milliseconds : 0.0;
     bits = visible.buffer().download<std::uint32_t>();
-    return milliseconds;
+    return millisecondsOf("bench.visibility");
   }
 
   std::unique_ptr<gpu::Device> device;
@@ -130,6 +144,7 @@ struct Stage {
 struct Measured {
   std::size_t triangles = 0, points = 0, rays = 0, open = 0;
   double bare_mrays_s = 0.0, host_mrays_s = 0.0, ratio = 0.0, device_mrays_s = 0.0, differing = 0.0;
+  double still_ms = 0.0, moved_ms = 0.0;
 };
 
 void measureHost(const Stage& stage, const trace::Tracer& tracer, Measured& result) {
@@ -175,6 +190,18 @@ void measureDevice(Stage& stage, const PosedScene& posed, const PosedCamera& cam
   result.differing = double(differing) / double(result.rays);
 }
 
+void measureWalks(Stage& stage, const PosedScene& posed, const PosedCamera& camera, Measured& result) {
+  PosedScene moved = posed;
+  std::vector<double> still_ms, moved_ms;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!moved.instances.empty()) moved.instances[0].world_from_object[3].y += 1e-5f;
+    moved_ms.push_back(stage.walk(moved, camera));
+    still_ms.push_back(stage.walk(moved, camera));
+  }
+  result.still_ms = median(still_ms);
+  result.moved_ms = median(moved_ms);
+}
+
 }  // namespace
 
 int benchVisibility(const BenchChoice& choice, Console& console) {
@@ -189,6 +216,7 @@ int benchVisibility(const BenchChoice& choice, Console& console) {
   Measured m{.triangles = tracer.triangleCount(), .points = stage.points.size()};
   measureHost(stage, tracer, m);
   measureDevice(stage, posed, camera, m);
+  measureWalks(stage, posed, camera, m);
   if (m.rays == 0)
     throw Error("bench visibility",
                 "no light faces what the camera sees; another scene, light or camera is needed");
@@ -206,6 +234,9 @@ int benchVisibility(const BenchChoice& choice, Console& console) {
     console.print(fmt::format("device          {:8.2f} Mrays/s in all, {}", m.device_mrays_s,
                               stage.device->info().name));
     console.print(fmt::format("other bits      {:8.5f} % of rays", 100.0 * m.differing));
+    console.print(
+        fmt::format("walks           {:8.2f} ms a frame, {:.2f} where something moved: another hierarchy",
+                    m.still_ms, m.moved_ms));
     return kDone;
   }
   console.print(jsonText({{"device", stage.device->info().name},
@@ -221,7 +252,9 @@ int benchVisibility(const BenchChoice& choice, Console& console) {
                           {"host_mrays_s", m.host_mrays_s},
                           {"ratio", m.ratio},
                           {"device_mrays_s", m.device_mrays_s},
-                          {"differing", m.differing}}));
+                          {"differing", m.differing},
+                          {"walks_ms", m.still_ms},
+                          {"walks_moved_ms", m.moved_ms}}));
   return kDone;
 }
 

@@ -431,5 +431,103 @@ TEST(Walks, ShadersEvaluateThemAlike) {
   }
 }
 
+// ---- Against plain gathering --------------------------------------------------------------------------------------
+
+/// Light that arrives at a point by up to `bounces` surfaces, by paths from the point (cosine-weighted); lamps apart.
+struct Gathering {
+  const visibility::HostWorld& world;
+  glm::vec3 lamp, intensity;
+
+  glm::vec3 albedo(const trace::Hit& hit) const { return glm::vec3(material(hit).base_color); }
+  const Material& material(const trace::Hit& hit) const {
+    const Scene& scene = world.scene();
+    const auto mesh = std::size_t(world.posed().instances[std::size_t(hit.instance)].mesh);
+    return scene.materials[std::size_t(scene.meshes[mesh].material)];
+  }
+  glm::vec3 fromLamp(const glm::vec3& place, const glm::vec3& normal) const {
+    const glm::vec3 between = lamp - place;
+    const float distance = glm::length(between), cosine = glm::dot(between, normal) / distance;
+    if (cosine <= 0.0f || world.tracer().occluded(trace::Ray{place, between / distance, 0.0f, distance}))
+      return glm::vec3(0.0f);
+    return intensity * cosine / (distance * distance);
+  }
+  glm::vec3 irradiance(const glm::vec3& place, const glm::vec3& normal, int bounces, int rays,
+                       sampling::Rng& rng) const {
+    glm::vec3 sum(0.0f);
+    for (int i = 0; i < rays; ++i) {
+      const glm::vec3 way = sampling::frame(normal) * sampling::cosineHemisphere(rng.next2());
+      const trace::Hit hit = world.tracer().closest({place, way});
+      if (!hit) continue;
+      sum += kPi * material(hit).emission;
+      if (bounces == 0) continue;
+      const glm::vec3 side =
+          glm::dot(hit.geometric_normal, way) > 0.0f ? -hit.geometric_normal : hit.geometric_normal;
+      sum += albedo(hit) * irradiance(place + hit.distance * way + 1e-4f * side, side, bounces - 1, 1, rng);
+    }
+    return sum / float(rays) + fromLamp(place, normal);
+  }
+};
+
+// Walks and visibility together, in a room with a lamp, a ceiling light and a box in the way.
+TEST(Walks, LightOfARoomIsWhatPathsFromTheReceiverFind) {
+  SceneBuilder builder("room");
+  addBox(builder, {0.7f, 0.5f, 0.3f});
+  const int glow = builder.diffuse("glow", glm::vec3(0.0f));
+  builder.material(glow).emission = {6, 5, 4};
+  builder.place("light", squareAt(0.3f, 0.8f), glow);
+  builder.place("block", shapes::roundedBox({0.25f, 0.25f, 0.25f}, 0.02f, 0.25f, 1),
+                builder.diffuse("block", glm::vec3(0.6f)), {0.3f, 0, 0});
+  const glm::vec3 lamp(-0.5f, -0.3f, 0.4f), intensity(0.6f, 0.8f, 1.0f);
+  builder.light(lampOf(Light::Type::kPoint, intensity), lamp);
+  const Scene scene = builder.finish();
+  std::vector<visibility::SightPoint> points;
+  const std::pair<glm::vec3, glm::vec3> places[] = {{{0.0f, -0.9f, 0.0f}, {0, 1, 0}},
+                                                    {{0.5f, -0.9f, 0.0f}, {0, 1, 0}},
+                                                    {{-0.9f, 0.2f, -0.3f}, {1, 0, 0}},
+                                                    {{0.6f, 0.0f, 0.6f}, {0, 0, -1}}};
+  constexpr int kSets = 64;
+  for (const auto& [place, normal] : places) {
+    for (std::uint32_t s = 0; s < kSets; ++s) points.push_back({place, 1e-4f, normal, s});
+  }
+  Stage stage(scene);
+  Walks walks;
+  gpu::BufferRef visible;
+  stage.frame.draw(
+      pose(scene, 0.0f), frame::cameraAt({0, 3, 6}, {0, 0, 0}), {.width = 8, .height = 8},
+      [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+        walks = stage.walker.record(
+            graph, inputs, {.sets = kSets, .direct = 32, .indirect = 96, .bounces = 2}, stage.sight.world());
+        const visibility::Question question{.points = graph.upload("test.points", points),
+                                            .point_count = std::uint32_t(points.size()),
+                                            .lights = walks.rows,
+                                            .light_bytes = sizeof(WalkVpl),
+                                            .sets = walks.sets,
+                                            .set_count = walks.set_count,
+                                            .words = walks.words()};
+        visible =
+            stage.sight.record(graph, "test.visibility", inputs.scene, question, visibility::Means::kHost);
+        return frame::Lighting{};
+      });
+  const auto rows = walks.rows.buffer().download<WalkVpl>();
+  const auto sets = walks.sets.buffer().download<SightSet>();
+  const auto bits = visible.buffer().download<std::uint32_t>();
+  const Gathering gathering{stage.sight.world(), lamp, intensity};
+  sampling::Rng rng(3);
+  for (std::size_t k = 0; k < std::size(places); ++k) {
+    glm::vec3 got(0.0f), way;
+    for (std::size_t p = k * kSets; p < (k + 1) * kSets; ++p) {
+      const SightSet& set = sets[points[p].set];
+      for (std::uint32_t i = 0; i < set.count; ++i) {
+        if ((bits[i / 32 * points.size() + p] >> (i % 32) & 1u) == 0) continue;
+        const glm::vec3 light = arriving(rows[set.first + i], points[p].position, way);
+        got += light * std::max(0.0f, glm::dot(way, points[p].normal)) / float(kSets);
+      }
+    }
+    const auto& [place, normal] = places[k];
+    expectNear(got, gathering.irradiance(place + 1e-4f * normal, normal, 2, 30000, rng), 0.03f,
+               "place " + std::to_string(k));
+  }
+}
+
 }  // namespace
 }  // namespace gloam::vpls
