@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "math/sampling.h"
+#include "math/sh_light_parts.h"
 #include "scene/transforms.h"
 #include "shaders/prt_shaders.h"
 #include "techniques/prt/prt_glossy.h"
@@ -35,25 +36,49 @@ void addRotatedLights(const sh::ShRgb& light, const frame::GpuScene& scene, cons
   }
 }
 
-/// Whether a vertex can receive less than `window auto` grants it. It gathers the light's bands by a weight that is nowhere
-/// negative, so that light which is high enough everywhere cannot fall short: soft skies cost nothing.
-bool mayRing(const sh::ShRgb& light, const sh::ShRgb& soft) {
+/// How far the light rings, 0 to 1: where in some direction a colour falls short of half of its windowed self, by a share of its
+/// mean. A vertex gathers the light's bands by a weight that is nowhere negative, so that light which is high enough everywhere
+/// leaves no vertex dark: soft skies are 0 and cost nothing. It grows from there, so that light that changes changes no picture at once.
+float ringing(const sh::ShRgb& light) {
+  constexpr float kFull = 0.1f;  // of the mean
   static const std::vector<glm::vec3> directions = sampling::fibonacciSphere(600);
-  return std::ranges::any_of(directions, [&](const glm::vec3& d) {
+  const sh::ShRgb soft = sh::windowHann(light, float(light.order));
+  const glm::vec3 mean = glm::max(light[0] * sh::evaluate(1, {0, 1, 0})[0], glm::vec3(1e-9f));
+  glm::vec3 lack(0.0f);
+  for (const glm::vec3& d : directions) {
     const glm::vec3 least = kLeastOfDamped * glm::max(sh::valueAt(soft, d), glm::vec3(0.0f));
-    return glm::any(glm::lessThan(sh::valueAt(light, d), least));
-  });
+    lack = glm::max(lack, (least - sh::valueAt(light, d)) / mean);
+  }
+  return std::min(1.0f, std::max({lack.r, lack.g, lack.b}) / kFull);
+}
+
+/// Light that is damped vertex by vertex: its sharpest peak, as much of it as the light rings, and the rest.
+sh::LightParts partsOf(const sh::ShRgb& all_bands, const sh::ShRgb& light, float share) {
+  sh::LightParts parts = sh::lightParts(all_bands, light.order);
+  parts.peak *= share;
+  parts.rest = light;
+  const sh::Sh there = sh::directionalLight(light.order, parts.direction);
+  for (int i = 0; i < there.size(); ++i) parts.rest[i] -= parts.peak * there[i];
+  return parts;
 }
 
 /// Adds "prt.vertices", once a chunk; every vertex's irradiance.
 gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene,
-                             const TransferBuffers& transfer, const sh::ShRgb& light, bool damping) {
-  const sh::ShRgb soft = sh::windowHann(light, float(light.order));
-  const bool damped = damping && mayRing(light, soft);
+                             const TransferBuffers& transfer, const sh::ShRgb& light,
+                             const sh::ShRgb& all_bands, bool damping) {
+  const float share = damping ? ringing(light) : 0.0f;
+  const bool in_parts = share > 0.0f;
   std::vector<glm::vec3> lights;
-  addRotatedLights(light, scene, transfer, lights);
-  VerticesParams params{.first_damped = static_cast<std::uint32_t>(lights.size())};
-  if (damped) addRotatedLights(soft, scene, transfer, lights);
+  VerticesParams params{};
+  if (in_parts) {
+    const sh::LightParts parts = partsOf(all_bands, light, share);
+    addRotatedLights(parts.rest, scene, transfer, lights);
+    params.first_peak = static_cast<std::uint32_t>(lights.size());
+    addRotatedLights(sh::colored(sh::directionalLight(light.order, parts.direction), parts.peak), scene,
+                     transfer, lights);
+  } else {
+    addRotatedLights(light, scene, transfer, lights);
+  }
   const gpu::BufferRef light_buffer = graph.upload("prt.lights", lights);
   const auto output = graph.create("prt.vertex_light",
                                    gpu::BufferDesc{.bytes = transfer.outputVertices() * sizeof(VertexLight)});
@@ -67,7 +92,7 @@ gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scen
         .specialize("coefficients", transfer.order() * transfer.order())
         .specialize("has_indirect", transfer.hasIndirect())
         .specialize("half_float", transfer.options().half_float)
-        .specialize("damped", damped)
+        .specialize("in_parts", in_parts)
         .read("blocks", chunk.blocks)
         .read("transfer_direct", chunk.direct)
         .read("transfer_indirect", chunk.indirect)
@@ -199,7 +224,8 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
       frame::windowed(inputs.environment.sh(), transfer.order(), windowOf(settings.choice("window")));
   const gpu::BufferRef vertex_light =
       local ? lightVerticesLocally(graph, inputs, transfer, settings)
-            : lightVertices(graph, inputs.scene, transfer, light, settings.choice("window") == "auto");
+            : lightVertices(graph, inputs.scene, transfer, light, inputs.environment.sh(),
+                            settings.choice("window") == "auto");
 
   std::optional<NeighbourhoodPasses> neighbourhood;
   // Local light sees the other objects in the way by itself.

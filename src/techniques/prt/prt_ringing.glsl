@@ -12,4 +12,7 @@ vec3 withoutRinging(vec3 sharp, vec3 soft) {
   return mix(sharp, soft, clamp(max(max(share.r, share.g), share.b), 0.0, 1.0));
 }
 
+/// Light in two parts (math/sh_light_parts.h): a sun that rings below 0 in its shadow takes nothing from the sky.
+vec3 bothParts(vec3 rest, vec3 peak) { return max(rest, vec3(0.0)) + max(peak, vec3(0.0)); }
+
 #endif

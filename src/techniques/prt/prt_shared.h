@@ -16,12 +16,12 @@ GLOAM_SHARED_CONST uint kUnbaked = 0xffffffffu;
 /// its peak. Sharper materials are shown with this exponent.
 GLOAM_SHARED_CONST float kSharpestLobe[7] = {1.0f, 1.0f, 1.0f, 2.0f, 3.0f, 10.0f, 12.0f};
 
-/// What `window auto` leaves of the windowed light at least, in each colour of each vertex.
+/// What `window auto` leaves of the windowed light at least, in each colour, where light is not taken in two parts.
 GLOAM_SHARED_CONST float kLeastOfDamped = 0.5f;
 
 struct VerticesParams {
   uint block_count;
-  uint first_damped;  // of the windowed lights, where there are any
+  uint first_peak;  // of the lights' peaks, where they come in two parts
 };
 GLOAM_SHARED_SIZE(VerticesParams, 8)
 

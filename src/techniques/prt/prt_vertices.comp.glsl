@@ -13,7 +13,7 @@
 layout(constant_id = 0) const int coefficients = 25;
 layout(constant_id = 1) const bool has_indirect = true;
 layout(constant_id = 2) const bool half_float = false;
-layout(constant_id = 3) const bool damped = false;  // the same lights windowed follow, where ringing is to be damped
+layout(constant_id = 3) const bool in_parts = false;  // the lights' sharpest peaks follow, which the first ones lack
 
 layout(local_size_x = kBlockVertices / 4, local_size_y = kBlocksTogether) in;
 layout(scalar, set = 0, binding = 0) readonly buffer Blocks { VertexBlock at[]; } blocks;
@@ -51,22 +51,22 @@ void main() {
   uint words = half_float ? (n + 1u) / 2u : n, colored_words = half_float ? (3u * n + 1u) / 2u : 3u * n;
   uint at = block.transfer * words * kRow + row, colored_at = block.transfer * colored_words * kRow + row;
 
-  Four direct = none(), indirect = none(), soft_direct = none(), soft_indirect = none();
+  Four direct = none(), indirect = none(), peak_direct = none(), peak_indirect = none();
   const uint step = half_float ? 2u : 1u;
   for (uint i = 0u; i < n; i += step) {
-    vec3 light = lights.at[block.light + i], next = vec3(0.0), soft = vec3(0.0), soft_next = vec3(0.0);
-    if (damped) soft = lights.at[push.params.first_damped + block.light + i];
+    vec3 light = lights.at[block.light + i], next = vec3(0.0), peak = vec3(0.0), peak_next = vec3(0.0);
+    if (in_parts) peak = lights.at[push.params.first_peak + block.light + i];
     bool pair = half_float && i + 1u < n;  // the last of an odd number stands alone
     if (pair) next = lights.at[block.light + i + 1u];
-    if (pair && damped) soft_next = lights.at[push.params.first_damped + block.light + i + 1u];
+    if (pair && in_parts) peak_next = lights.at[push.params.first_peak + block.light + i + 1u];
     uvec4 bits = transfer_direct.at[at + i / step * kRow];
     vec4 m = half_float ? lowHalves(bits) : uintBitsToFloat(bits);
     add(direct, light, m, m, m);
-    if (damped) add(soft_direct, soft, m, m, m);
+    if (in_parts) add(peak_direct, peak, m, m, m);
     if (half_float) {
       m = highHalves(bits);
       add(direct, next, m, m, m);
-      if (damped) add(soft_direct, soft_next, m, m, m);
+      if (in_parts) add(peak_direct, peak_next, m, m, m);
     }
     if (has_indirect) {
       uint w = colored_at + 3u * i / step * kRow;
@@ -76,21 +76,21 @@ void main() {
       if (half_float) {
         vec4 r = lowHalves(first), g = highHalves(first), b = lowHalves(second);
         add(indirect, light, r, g, b);
-        if (damped) add(soft_indirect, soft, r, g, b);
+        if (in_parts) add(peak_indirect, peak, r, g, b);
         r = highHalves(second), g = lowHalves(third), b = highHalves(third);
         add(indirect, next, r, g, b);
-        if (damped) add(soft_indirect, soft_next, r, g, b);
+        if (in_parts) add(peak_indirect, peak_next, r, g, b);
       } else {
         vec4 r = uintBitsToFloat(first), g = uintBitsToFloat(second), b = uintBitsToFloat(third);
         add(indirect, light, r, g, b);
-        if (damped) add(soft_indirect, soft, r, g, b);
+        if (in_parts) add(peak_indirect, peak, r, g, b);
       }
     }
   }
   for (int k = 0; k < int(kTogether); ++k) {
     uint vertex = row * kTogether + uint(k);
     VertexLight sum = VertexLight(of(direct, k), of(indirect, k));
-    if (damped) sum = VertexLight(withoutRinging(sum.direct, of(soft_direct, k)), withoutRinging(sum.indirect, of(soft_indirect, k)));
+    if (in_parts) sum = VertexLight(bothParts(sum.direct, of(peak_direct, k)), bothParts(sum.indirect, of(peak_indirect, k)));
     if (vertex < block.count) vertex_light.at[block.output_ + vertex] = sum;
   }
 }
