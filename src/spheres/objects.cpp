@@ -18,6 +18,8 @@ constexpr float kRound = 0.02f;  // a bounding sphere that holds no more air tha
 constexpr int kCurvePoints = 2000, kCurveEnd = 64;
 constexpr float kLooseEnough =
     3.0f;  // air over volume: drawn in (renderer/shadow_radii), such spheres still look alike
+constexpr float kLooseLimbs = 1.3f;        // of what deforms: a foot, and the shadow at it, takes two spheres
+constexpr float kWorth = 0.12f;             // air over volume that a second sphere takes off: it is given
 constexpr long kFewest = 26, kMost = 128;  // spheres of a scene, where their number is not given
 constexpr float kEvenStretch = 0.98f;      // least over greatest stretch that still counts as even
 
@@ -112,11 +114,13 @@ float outsideAt(const Object& object, int k) {
   return outside[below] * std::pow(outside[below + 1] / outside[below], place - float(below));
 }
 
-/// Spheres with which an object holds no more air than kLooseEnough times its volume.
+/// Spheres with which an object holds no more air than so many times its volume; two, where that helps much (a pedestal).
 int neededCount(const Object& object) {
   const float volume = object.solid.volume * object.world_scale3;
-  int k = 1;
-  while (k < kCurveEnd && outsideAt(object, k) > kLooseEnough * volume) ++k;
+  const float loose = object.set.deforms ? kLooseLimbs : kLooseEnough;
+  if (object.outside.front() < kRound * volume) return 1;
+  int k = outsideAt(object, 1) - outsideAt(object, 2) > kWorth * volume ? 2 : 1;
+  while (k < kCurveEnd && outsideAt(object, k) > loose * volume) ++k;
   return k;
 }
 
@@ -132,11 +136,13 @@ void deal(const std::vector<Object*>& casters, int count, bool among_others) {
     left = std::clamp<long>(needed, kFewest, kMost);
   }
   for (Object* object : casters) object->count = 1, left -= long(object->places);
-  // Where one more sphere takes off most; large pieces first, as long as one fits.
+  // Where one more sphere takes off most; large pieces first, as long as one fits. What holds less air than its volume is tight
+  // already, and counts by as much.
   const auto gain = [](const Object& object) {
     const float volume = object.solid.volume * object.world_scale3;
     if (object.outside.front() < kRound * volume) return 0.0f;
-    return outsideAt(object, object.count) - outsideAt(object, object.count + 1);
+    const float air = outsideAt(object, object.count);
+    return (air - outsideAt(object, object.count + 1)) * std::min(1.0f, air / volume);
   };
   while (left > 0) {
     Object* best = nullptr;

@@ -35,7 +35,7 @@ void markReceivers(std::vector<Object>& objects, const PosedScene& posed);
 inline constexpr double kTooLoose = 12.0;
 
 /// Gives out `count` spheres to those that cast, one at least; an object that stands in n places takes n at a time. 0: as many
-/// as leave no object with more air than three times its volume, 26 to 128 together. Among others, what would hold far too much air by its share only receives, and others get that.
+/// as leave no object with more air than three times its volume (what deforms: once), 26 to 128 together. Among others, what would hold far too much air by its share only receives, and others get that.
 void spreadCount(std::vector<Object>& objects, int count);
 
 /// Vertices, spread over the part of the surface that each sphere is nearest to by |p - c| / r.
