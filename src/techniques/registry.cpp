@@ -7,6 +7,7 @@
 #include "techniques/irradiance/irradiance.h"
 #include "techniques/proxies/proxies.h"
 #include "techniques/prt/prt.h"
+#include "techniques/radiance_filter/radiance_filter.h"
 #include "techniques/spherical_lights/spherical_lights.h"
 #include "techniques/splatting/splatting.h"
 #include "techniques/technique.h"
@@ -32,6 +33,7 @@ const std::vector<Entry>& table() {
       {proxies::info(), make<proxies::Proxies>},
       {spherical_lights::info(), make<spherical_lights::SphericalLights>},
       {splatting::info(), make<splatting::Splatting>},
+      {radiance_filter::info(), make<radiance_filter::RadianceFilter>},
   };
   return entries;
 }

@@ -1,0 +1,137 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Segovia, Wald 2008, sections 2.3 and 3 (rows RF-4, RF-5): averages over a window that holds each set once, then shading.
+#include "shaders/radiance_filter_shaders.h"
+#include "techniques/radiance_filter/radiance_filter_passes.h"
+
+namespace gloam::radiance_filter {
+
+namespace {
+
+/// Pixels that one invocation filters along its axis: on software drivers neighbours share what they load, GPUs have caches.
+int runOf(const gpu::Device& device, int taps) {
+  return !device.info().software || taps > kMostTapsReplaced ? 1 : (taps > 8 ? 8 : 16);
+}
+
+FilterLimits limitsOf(const Plan& plan) {
+  return {std::uint32_t(plan.width), std::uint32_t(plan.height),
+          plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)), plan.normal_threshold};
+}
+
+template <class Pass>
+Pass& readSurface(Pass& pass, const frame::FrameInputs& inputs, const Plan& plan) {
+  return pass.read("frame_view", inputs.view)
+      .read("depth", inputs.gbuffer.depth)
+      .read("ids", inputs.gbuffer.ids)
+      .read("normals", inputs.gbuffer.normals)
+      .specialize("tests_normals", plan.mode == Mode::kIrradianceNormals);
+}
+
+/// One axis of the separable filter over planes of words.
+struct Axis {
+  int number, taps, run;
+  const Plan& plan;
+
+  /// Runs along the axis, by lines.
+  void over(gpu::ComputePass& pass, int planes) const {
+    const auto runs = [&](int side) { return (side + run - 1) / run; };
+    pass.specialize("axis", number).specialize("taps", taps).specialize("run", run);
+    pass.dispatchOver(number == 0 ? runs(plan.width) : plan.width,
+                      number == 0 ? plan.height : runs(plan.height), planes);
+  }
+};
+
+gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                              gpu::ImageRef values) {
+  const auto likeValues = [&](const char* name) { return createValues(graph, plan, name, values.format()); };
+  const gpu::ImageRef halfway = likeValues("radiance_filter.halfway"),
+                      filtered = plan.views ? likeValues("radiance_filter.filtered") : values;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Axis way{axis, plan.taps[axis], runOf(graph.device(), plan.taps[axis]), plan};
+    const auto masks = graph.create(fmt::format("radiance_filter.masks_{}", axis == 0 ? "across" : "down"),
+                                    gpu::BufferDesc{.bytes = plan.pixels() * sizeof(std::uint32_t)});
+    auto& weights = graph.compute("radiance_filter.weights", radiance_filter_weights_spv);
+    way.over(readSurface(weights, inputs, plan).write("masks", masks).push(limitsOf(plan)), 1);
+    auto& filter = graph.compute("radiance_filter.filter", radiance_filter_filter_spv);
+    filter.read("masks", masks)
+        .read("before", axis == 0 ? values : halfway)
+        .write("after", axis == 0 ? halfway : filtered);
+    way.over(filter, values.range().layers);
+  }
+  return filtered;
+}
+
+}  // namespace
+
+gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                           const Light& light) {
+  if (plan.filter == Filter::kNone || plan.taps == glm::ivec2(1)) return light.values;
+  if (plan.filter == Filter::kTwoPass) return recordTwoPasses(graph, inputs, plan, light.values);
+  const gpu::ImageRef filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
+  readSurface(graph.compute("radiance_filter.once", radiance_filter_once_spv), inputs, plan)
+      .read("before", light.values)
+      .write("after", filtered)
+      .specialize("layers", plan.layers())
+      .specialize("taps_x", plan.taps.x)
+      .specialize("taps_y", plan.taps.y)
+      .push(limitsOf(plan))
+      .dispatchOver(plan.width, plan.height, int(plan.parts.size()));
+  return filtered;
+}
+
+frame::Lighting recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                              gpu::ImageRef values, gpu::BufferRef exposure) {
+  frame::Lighting lighting{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
+  for (std::size_t part = 0; part < plan.parts.size(); ++part) {
+    const char* path = plan.parts[part] == frame::Path::kDirect ? "direct" : "indirect";
+    const auto image = [&](const char* what) {
+      return graph.create(
+          fmt::format("radiance_filter.{}_{}", what, path),
+          gpu::ImageDesc{
+              .format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = plan.width, .height = plan.height});
+    };
+    const gpu::ImageRef irradiance = image("irradiance"), gloss = image("gloss");
+    graph.compute("radiance_filter.shade", radiance_filter_shade_spv)
+        .read("frame_view", inputs.view)
+        .read("depth", inputs.gbuffer.depth)
+        .read("normals", inputs.gbuffer.normals)
+        .read("diffuse", inputs.gbuffer.diffuse)
+        .read("values", values)
+        .read("exposure", exposure)
+        .write("irradiance", irradiance)
+        .write("gloss", gloss)
+        .specialize("field", plan.keepsField())
+        .push(int(part))
+        .dispatchOver(irradiance);
+    lighting.irradiance.push_back({.image = irradiance, .path = plan.parts[part]});
+    lighting.gloss.push_back({.image = gloss, .path = plan.parts[part]});
+  }
+  return lighting;
+}
+
+void recordViews(gpu::FrameGraph& graph, const Plan& plan, gpu::ImageRef values, gpu::BufferRef exposure,
+                 const std::string& name, bool with_weights) {
+  const auto image = [&](const std::string& of) {
+    return graph.create(
+        of,
+        gpu::ImageDesc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = plan.width, .height = plan.height});
+  };
+  const int bands = plan.keepsField() ? 3 : 2;
+  for (int band = 0; band < bands + (with_weights ? 2 : 0); ++band) {
+    const auto view = image(band < bands    ? fmt::format("{}_{}", name, band)
+                            : band == bands ? "radiance_filter.weights"
+                                            : "radiance_filter.set");
+    graph.compute("radiance_filter.views", radiance_filter_views_spv)
+        .read("values", values)
+        .read("exposure", exposure)
+        .write("view", view)
+        .specialize("field", plan.keepsField())
+        .specialize("band", band < bands ? band : 3 + band - bands)
+        .specialize("parts", int(plan.parts.size()))
+        .push(glm::uvec2(plan.sets))
+        .dispatchOver(view);
+  }
+}
+
+}  // namespace gloam::radiance_filter

@@ -1,0 +1,44 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Which pixels a pixel is averaged with (RF-4): of its object, near its tangent plane. Includers declare frame_view, depth, ids,
+// normals and push.limits.
+#ifndef GLOAM_RADIANCE_FILTER_WINDOW_GLSL
+#define GLOAM_RADIANCE_FILTER_WINDOW_GLSL
+#include "frame/frame_shared.h"
+#include "frame/gbuffer.glsl"
+#include "frame/view.glsl"
+#include "techniques/radiance_filter/radiance_filter_line.glsl"
+
+layout(constant_id = 0) const bool tests_normals = false;
+
+struct Surface {
+  vec3 position;
+  uint object;   // 0: none
+  vec3 shading;  // where normals are tested
+};
+
+/// Pixels beyond the picture are of no object.
+Surface surfaceAt(ivec2 pixel, ivec2 size) {
+  bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
+  pixel = clamp(pixel, ivec2(0), size - 1);
+  Surface surface = Surface(vec3(0.0), inside ? texelFetch(ids, pixel, 0).x : 0u, vec3(0.0));
+  Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
+  surface.position = ray.origin + ray.direction * eyeDepth(frame_view.view, max(texelFetch(depth, pixel, 0).x, 1e-30));
+  if (tests_normals) surface.shading = shadingNormal(texelFetch(normals, pixel, 0).xy);
+  return surface;
+}
+
+/// Metres off its tangent plane at which a pixel's surface ends.
+float toleranceAt(vec3 position) {
+  FrameView view = frame_view.view;
+  float along = view.depth_range > 0.0 ? 1.0 : dot(position - view.eye, view.forward);
+  return push.limits.tolerance * length(view.step_x) * along;
+}
+
+bool isSameSurface(Surface middle, vec3 normal, float tolerance, Surface other) {
+  return other.object != 0u && other.object == middle.object && abs(dot(normal, other.position - middle.position)) <= tolerance &&
+         (!tests_normals || dot(middle.shading, other.shading) >= push.limits.normal_cosine);
+}
+
+#endif
