@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "visibility/host_world.h"
 
+#include <algorithm>
+
 #include "visibility/host_scene.h"
 
 namespace gloam::visibility {
@@ -11,25 +13,34 @@ struct HostWorld::State {
   PosedScene posed;
   mutable std::unique_ptr<trace::Tracer> tracer;  // made when it is first asked for
   std::uint64_t layout = 0, pose = 0;
-  std::vector<frame::InstanceRow> rows;  // as the tracer has them
 };
 
 namespace {
 
-bool anyDeformed(const frame::GpuScene& scene) {
+/// All vertices as the device has them, where any instance is deformed; else none.
+std::vector<glm::vec3> deformedVertices(const gpu::HostAccess& access, const frame::GpuScene& scene) {
   for (std::size_t i = 0; i < scene.instances().size(); ++i) {
-    if (scene.deformed(i)) return true;
+    if (scene.deformed(i)) return access.download<glm::vec3>(scene.positions());
   }
-  return false;
+  return {};
 }
 
-bool sameRows(std::span<const frame::InstanceRow> a, std::span<const frame::InstanceRow> b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].world_from_object != b[i].world_from_object || a[i].first_vertex != b[i].first_vertex)
-      return false;
+Instance instanceOf(const frame::GpuScene& scene, std::size_t index, std::span<const glm::vec3> vertices) {
+  const frame::InstanceRow& row = scene.instances()[index];
+  Instance instance;
+  instance.mesh = int(row.mesh);
+  if (scene.deformed(index)) {
+    const auto own = vertices.subspan(row.first_vertex, scene.meshes()[row.mesh].vertex_count);
+    instance.deformed_positions.assign(own.begin(), own.end());
+  } else {
+    instance.world_from_object = glm::mat4(row.world_from_object);
   }
-  return true;
+  return instance;
+}
+
+bool same(const Instance& a, const Instance& b) {
+  return a.mesh == b.mesh && a.world_from_object == b.world_from_object &&
+         a.deformed_positions == b.deformed_positions;
 }
 
 }  // namespace
@@ -43,29 +54,19 @@ void HostWorld::reads(gpu::HostPass& pass, const frame::GpuScene& scene) {
 
 void HostWorld::update(const gpu::HostAccess& access, const frame::GpuScene& scene) {
   State& s = *state_;
-  const bool deformed = anyDeformed(scene), same_layout = s.layout == scene.layoutRevision();
-  if (same_layout && !deformed && sameRows(s.rows, scene.instances())) return;
+  const std::vector<glm::vec3> vertices = deformedVertices(access, scene);
+  PosedScene posed;
+  for (std::size_t i = 0; i < scene.instances().size(); ++i)
+    posed.instances.push_back(instanceOf(scene, i, vertices));
+  const bool same_layout = s.layout == scene.layoutRevision();
+  if (same_layout && std::ranges::equal(posed.instances, s.posed.instances, same)) return;
+  posed.bounds_min = scene.boundsMin();
+  posed.bounds_max = scene.boundsMax();
   s.tracer.reset();  // refers to the scene
   if (!same_layout) s.scene = downloadScene(scene);
-  std::vector<glm::vec3> positions;
-  if (deformed) positions = access.download<glm::vec3>(scene.positions());
   s.layout = scene.layoutRevision();
+  s.posed = std::move(posed);
   ++s.pose;
-  s.rows.assign(scene.instances().begin(), scene.instances().end());
-  s.posed = PosedScene{};
-  s.posed.bounds_min = scene.boundsMin();
-  s.posed.bounds_max = scene.boundsMax();
-  for (std::size_t i = 0; i < s.rows.size(); ++i) {
-    Instance& instance = s.posed.instances.emplace_back();
-    instance.mesh = int(s.rows[i].mesh);
-    if (scene.deformed(i)) {
-      const auto first = positions.begin() + s.rows[i].first_vertex;
-      instance.deformed_positions.assign(first,
-                                         first + std::ptrdiff_t(scene.meshes()[s.rows[i].mesh].vertex_count));
-    } else {
-      instance.world_from_object = glm::mat4(s.rows[i].world_from_object);
-    }
-  }
 }
 
 const trace::Tracer& HostWorld::tracer() const {

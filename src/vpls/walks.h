@@ -20,6 +20,9 @@ struct WalkOptions {
   /// Rows a set for punctual lamps themselves: all of them where there are no more, else a choice by power. They light surfaces
   /// either way.
   int most_lamps = 16;
+  /// So many times more rows are made, and those kept, more or less brightened, that add most where the camera looks (RF-7). For
+  /// scenes of which little is seen or lit. 1: all that are made are kept.
+  int candidates = 1;
 };
 
 /// Sets of virtual lights on the device. Rows of a set: lamps, then what glows and the environment, then lit surfaces, then rows
@@ -33,13 +36,16 @@ struct Walks {
   std::uint32_t words() const { return (stride + 31) / 32; }  ///< for visibility::Question
 };
 
+/// The function of walks.glsl: irradiance that a light throws, unshadowed, on a plane that faces it, and the way to it.
+glm::vec3 walkIrradiance(const WalkVpl& vpl, const glm::vec3& position, glm::vec3& to_light);
+
 /// Made anew each frame from the same quasi-random points, so that lights glide as things move.
 class Walker {
  public:
   Walker();
   ~Walker();
 
-  /// Adds the host pass "vpls.walks". `world` is updated in it. Throws Error for counts below 0, more than 256 sets, and more
+  /// Adds the host pass "vpls.walks", and "vpls.seen" before it where there are candidates. `world` is updated in it. Throws Error for counts below 0, more than 256 sets, and more
   /// rows than a buffer of the device holds.
   Walks record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const WalkOptions& options,
                visibility::HostWorld& world);

@@ -10,7 +10,6 @@
 #include <gloam/lights.h>
 
 #include "frame/test_frame.h"
-#include "math/punctual.h"
 #include "math/sampling.h"
 #include "shaders/vpls_test_shaders.h"
 #include "visibility/host_world.h"
@@ -63,26 +62,10 @@ Made make(const Scene& scene, const WalkOptions& options) {
   return Stage(scene).make(scene, options);
 }
 
-/// The slow twin of walks.glsl.
-glm::vec3 arriving(const WalkVpl& vpl, const glm::vec3& place, glm::vec3& to_light) {
-  to_light = vpl.end.position;
-  if (vpl.end.kind == visibility::kSightDirectional) return vpl.light;
-  const glm::vec3 between = vpl.end.position - place;
-  const float distance = std::max(glm::length(between), 1e-4f);
-  to_light = between / distance;
-  const float cosine = -glm::dot(to_light, vpl.end.normal);
-  if (vpl.end.kind == visibility::kSightLamp)
-    return vpl.light * punctual::rangeFactor(distance, vpl.range) *
-           punctual::coneFactor(cosine, vpl.cos_inner, vpl.cos_outer) / (distance * distance);
-  const float facing =
-      vpl.end.kind == visibility::kSightBothSides ? std::abs(cosine) : std::max(cosine, 0.0f);
-  return vpl.light * facing / std::max(distance * distance, vpl.bound);
-}
-
 glm::vec3 irradiance(std::span<const WalkVpl> rows, const glm::vec3& place, const glm::vec3& normal) {
   glm::vec3 sum(0.0f), way;
   for (const WalkVpl& row : rows) {
-    const glm::vec3 light = arriving(row, place, way);
+    const glm::vec3 light = walkIrradiance(row, place, way);
     sum += light * std::max(0.0f, glm::dot(way, normal));
   }
   return sum;
@@ -384,7 +367,9 @@ TEST(Walks, OddNumbersHaveAnswers) {
   EXPECT_TRUE(make(scene, {.sets = 4, .direct = 0, .indirect = 0, .most_lamps = 0}).sets.empty());
   EXPECT_THROW(make(scene, {.sets = 257}), Error);
   EXPECT_THROW(make(scene, {.sets = 4, .direct = -1}), Error);
-  EXPECT_THROW(make(scene, {.sets = 256, .indirect = 1 << 30}), Error);
+  EXPECT_THROW(make(scene, {.sets = 4, .candidates = 0}), Error);
+  EXPECT_THROW(make(scene, {.sets = 256, .indirect = 1 << 20}), Error);
+  EXPECT_THROW(make(scene, {.sets = 256, .direct = 1000, .candidates = 64}), Error);
   const Made many = make(scene, {.sets = 1, .direct = 0, .indirect = 100000, .bounces = 3});
   EXPECT_GT(many.sets.at(0).count, 99900u);
   expectNear(many.flux(0, 3), 4.0f * kPi * 0.125f * glm::vec3(3, 2, 1), 1e-3f, "third");
@@ -425,10 +410,46 @@ TEST(Walks, ShadersEvaluateThemAlike) {
   const auto got = out.buffer().download<glm::vec3>();
   for (std::size_t k = 0; k < rows.size() * places.size(); ++k) {
     glm::vec3 way;
-    expectNear(got[2 * k], arriving(rows[k % rows.size()], places[k / rows.size()], way), 1e-4f,
+    expectNear(got[2 * k], walkIrradiance(rows[k % rows.size()], places[k / rows.size()], way), 1e-4f,
                "irradiance");
     EXPECT_LT(glm::distance(got[2 * k + 1], way), 1e-5f);
   }
+}
+
+// A corner under a small lamp, and far away, out of sight, thirty brighter ones: rows go to the corner, and its light stays true.
+TEST(Walks, CandidatesAreChosenWhereTheCameraLooks) {
+  SceneBuilder builder("corner");
+  const int white = builder.diffuse("white", glm::vec3(0.5f));
+  builder.place("floor", squareAt(1.0f, 0.0f), white);
+  builder.place("wall", shapes::patch({-1, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0.0f, 2.0f}, {0.0f, 2.0f}), white);
+  builder.light(lampOf(Light::Type::kPoint, glm::vec3(1.0f)), {0.2f, 1.0f, 0.3f});
+  for (int i = 0; i < 30; ++i) {
+    builder.place("far", squareAt(1.0f, 0.0f), white, {100.0f + 3.0f * float(i), 0, 0});
+    builder.light(lampOf(Light::Type::kPoint, glm::vec3(3.0f)), {100.0f + 3.0f * float(i), 1, 0});
+  }
+  const Scene scene = builder.finish();
+  const glm::vec3 place(0.1f, 0.4f, -1.0f), normal(0, 0, 1);
+  constexpr std::size_t kSets = 64;
+  const auto measured = [&](const WalkOptions& options, float want, float& mean) {
+    const Made made = make(scene, options);
+    float squares = 0.0f;
+    mean = 0.0f;
+    for (std::size_t s = 0; s < made.sets.size(); ++s) {
+      const auto rows = made.of(s).subspan(made.sets[s].direct);
+      const float light = irradiance(rows, place, normal).r;
+      mean += light / float(made.sets.size());
+      squares += (light - want) * (light - want) / float(made.sets.size());
+    }
+    return std::sqrt(squares);
+  };
+  float want, blind_mean, chosen_mean;
+  measured({.sets = 1, .indirect = 500000, .most_lamps = 40}, 0.0f, want);
+  const float blind = measured({.sets = kSets, .indirect = 32, .most_lamps = 40}, want, blind_mean);
+  const float chosen =
+      measured({.sets = kSets, .indirect = 32, .most_lamps = 40, .candidates = 32}, want, chosen_mean);
+  EXPECT_LT(chosen, 0.4f * blind);
+  EXPECT_NEAR(chosen_mean, want, 3.0f * chosen / std::sqrt(float(kSets)));
+  EXPECT_NEAR(blind_mean, want, 3.0f * blind / std::sqrt(float(kSets)));
 }
 
 // ---- Against plain gathering --------------------------------------------------------------------------------------
@@ -519,7 +540,7 @@ TEST(Walks, LightOfARoomIsWhatPathsFromTheReceiverFind) {
       const SightSet& set = sets[points[p].set];
       for (std::uint32_t i = 0; i < set.count; ++i) {
         if ((bits[i / 32 * points.size() + p] >> (i % 32) & 1u) == 0) continue;
-        const glm::vec3 light = arriving(rows[set.first + i], points[p].position, way);
+        const glm::vec3 light = walkIrradiance(rows[set.first + i], points[p].position, way);
         got += light * std::max(0.0f, glm::dot(way, points[p].normal)) / float(kSets);
       }
     }
