@@ -55,7 +55,7 @@ const std::vector<Option>& options() {
                "every light; in mode "
                "multiresolution"},
       {.name = "normal_threshold",
-       .default_value = 0.2f,
+       .default_value = 0.1f,
        .minimum = 0.0,
        .maximum = 2.0,
        .help = "difference of a component of the normal from which on a texel is split; 0: all"},
@@ -71,6 +71,12 @@ const std::vector<Option>& options() {
        .help = "size of a texel on its surface, in parts of the mean distance of its light, from which on it "
                "is split; 0: whatever "
                "its size"},
+      {.name = "cluster_threshold",
+       .default_value = 0.006f,
+       .minimum = 0.0,
+       .maximum = 1000.0,
+       .help = "what merging virtual lights may change of a texel's light, as estimated, in parts of it; 0: "
+               "none are merged"},
       {.name = "normals",
        .default_value = std::string("geometric"),
        .choices = {"geometric", "shading"},
@@ -96,7 +102,11 @@ const std::vector<Option>& options() {
        .minimum = 0.0,
        .maximum = 1.0,
        .help =
-           "darkening of what is turned away from the eye, which stands for detail that coarse texels lose"}};
+           "darkening of what is turned away from the eye, which stands for detail that coarse texels lose"},
+      {.name = "debug",
+       .default_value = false,
+       .help = "keeps images to look at with --show: splatting.least_K, splatting.greatest_K, "
+               "splatting.light_0"}};
   return options;
 }
 
@@ -194,13 +204,23 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                   : upsample == "paper"  ? Upsampling::kPaper
                                   : upsample == "naive"  ? Upsampling::kNaive
                                                          : Upsampling::kBlocks;
+    const bool debug = settings.flag("debug");
+    const float detail = settings.number("detail");
     std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
-    const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, vpls);
-    recordGather(graph, inputs, plan, levels, subsplats, vpls,
-                 {upsample == "levels", visibility == "rays" ? &rays_ : nullptr, bound,
-                  settings.number("light_threshold")});
-    irradiance = recordUpsampling(graph, levels, thresholds, upsampling, settings.number("detail"),
-                                  inputs.view, inputs.gbuffer.normals);
+    if (debug) recordRangesToLookAt(graph, inputs, levels);
+    const LightSets lights = recordLightSets(graph, vpls);
+    const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, lights);
+    const GatherOptions gathering{.paints_levels = upsample == "levels",
+                                  .keeps_pixels = debug || (upsample != "surfaces" && upsample != "paper"),
+                                  .rays = visibility == "rays" ? &rays_ : nullptr,
+                                  .bound_kind = bound,
+                                  .light_threshold = settings.number("light_threshold"),
+                                  .cluster_threshold = settings.number("cluster_threshold")};
+    recordGather(graph, inputs, plan, levels, subsplats, lights, gathering);
+    irradiance =
+        recordUpsampling(graph, levels, thresholds, upsampling, detail, inputs.view, inputs.gbuffer.normals);
+    if (plan.finest == 0 && !gathering.keeps_pixels)
+      recordPixels(graph, inputs, levels[0], subsplats, detail, irradiance);
   }
   lighting.irradiance.push_back({.image = irradiance, .path = frame::Path::kIndirect});
   return lighting;

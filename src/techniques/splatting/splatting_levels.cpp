@@ -13,8 +13,6 @@ namespace gloam::splatting {
 
 namespace {
 
-constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
-
 struct RefinePush {
   Thresholds thresholds;
   std::int32_t level;
@@ -39,47 +37,61 @@ std::vector<Level> recordRanges(gpu::FrameGraph& graph, const frame::FrameInputs
   for (int k = 0; k <= plan.coarsest; ++k) {
     Level level{.width = (inputs.gbuffer.width + (1 << k) - 1) >> k,
                 .height = (inputs.gbuffer.height + (1 << k) - 1) >> k};
-    const auto image = [&](const char* name, VkFormat format) {
-      return graph.create(fmt::format("splatting.{}_{}", name, k),
-                          gpu::ImageDesc{.format = format, .width = level.width, .height = level.height});
+    const auto image = [&](const char* name) {
+      return graph.create(
+          fmt::format("splatting.{}_{}", name, k),
+          gpu::ImageDesc{
+              .format = VK_FORMAT_R32G32B32A32_UINT, .width = level.width, .height = level.height});
     };
     if (k > 0) {
-      level.least = image("least", kHalves);
-      level.greatest = image("greatest", kHalves);
-      level.positions = image("positions", kFloats);
-      level.shadings = image("shadings", kHalves);
+      level.ranges = image("ranges");
+      level.means = image("means");
       auto& pass = k == 1 ? graph.compute("splatting.ranges", splatting_ranges_first_spv)
                                 .specialize("by_shading_normal", by_shading_normal)
-                                .read("frame_view", inputs.view)
                                 .read("depth", inputs.gbuffer.depth)
                                 .read("normals", inputs.gbuffer.normals)
                           : graph.compute("splatting.ranges", splatting_ranges_next_spv)
-                                .read("fine_least", levels.back().least)
-                                .read("fine_greatest", levels.back().greatest)
-                                .read("fine_positions", levels.back().positions)
-                                .read("fine_shadings", levels.back().shadings);
-      pass.write("least", level.least)
-          .write("greatest", level.greatest)
-          .write("positions", level.positions)
-          .write("shadings", level.shadings)
-          .dispatchOver(level.least);
+                                .read("fine_ranges", levels.back().ranges)
+                                .read("fine_means", levels.back().means);
+      pass.write("ranges", level.ranges).write("means", level.means).dispatchOver(level.ranges);
     }
     levels.push_back(level);
   }
   return levels;
 }
 
+void recordRangesToLookAt(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                          std::span<const Level> levels) {
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    const auto image = [&](const char* name) {
+      return graph.create(
+          fmt::format("splatting.{}_{}", name, k),
+          gpu::ImageDesc{
+              .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = levels[k].width, .height = levels[k].height});
+    };
+    const gpu::ImageRef least = image("least"), greatest = image("greatest");
+    graph.compute("splatting.look", splatting_look_spv)
+        .read("frame_view", inputs.view)
+        .read("ranges", levels[k].ranges)
+        .write("least", least)
+        .write("greatest", greatest)
+        .dispatchOver(least);
+  }
+}
+
 Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                           std::vector<Level>& levels, const Thresholds& thresholds, const vpls::Vpls& vpls) {
+                           std::vector<Level>& levels, const Thresholds& thresholds,
+                           const LightSets& lights) {
   // Those that were split, coarser ones, are at most a third as many as pixels.
-  const std::size_t most = std::size_t(levels[0].width) * std::size_t(levels[0].height) * 4 / 3 + 4096;
-  Subsplats subsplats;
+  Subsplats subsplats{.most = std::size_t(levels[0].width) * std::size_t(levels[0].height) * 4 / 3 + 4096};
   subsplats.counts = graph.create("splatting.counts", gpu::BufferDesc{.bytes = sizeof(Counts)});
   subsplats.arguments =
       graph.create("splatting.arguments",
-                   gpu::BufferDesc{.bytes = kMostLevels * (1 + std::size_t(vpls.chunks())) * sizeof(Groups)});
-  subsplats.points = graph.create("splatting.points", gpu::BufferDesc{.bytes = most * sizeof(Subsplat)});
-  subsplats.light = graph.create("splatting.light", gpu::BufferDesc{.bytes = most * sizeof(glm::vec4)});
+                   gpu::BufferDesc{.bytes = std::size_t(kOverChunks + lights.chunks()) * sizeof(Groups)});
+  subsplats.points =
+      graph.create("splatting.points", gpu::BufferDesc{.bytes = subsplats.most * sizeof(Subsplat)});
+  subsplats.light =
+      graph.create("splatting.light", gpu::BufferDesc{.bytes = subsplats.most * sizeof(glm::vec4)});
   graph.clear("splatting.counts", subsplats.counts);
   const auto places = [&](const char* name, int k) {
     const Level& level = levels[std::size_t(k)];
@@ -94,19 +106,19 @@ Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inp
     const gpu::BufferRef children = !splits  ? graph.create("splatting.unused", gpu::BufferDesc{.bytes = 4})
                                     : k == 1 ? levels[0].leaves
                                              : places("queue", k - 1);
-    auto& pass =
-        graph.compute("splatting.refine", splatting_refine_spv)
-            .specialize("coarsest", k == plan.coarsest)
-            .specialize("splits", splits)
-            .specialize("children_are_pixels", k == 1)
-            .read("least", level.least)
-            .read("greatest", level.greatest)
-            .read("child_pixels", k == 1 ? inputs.gbuffer.depth : levels[std::size_t(k - 1)].positions)
-            .readWrite("counts", subsplats.counts)
-            .read("queue", queue)
-            .write("leaves", level.leaves)
-            .write("children", children)
-            .push(RefinePush{thresholds, k});
+    auto& pass = graph.compute("splatting.refine", splatting_refine_spv)
+                     .specialize("coarsest", k == plan.coarsest)
+                     .specialize("splits", splits)
+                     .specialize("children_are_pixels", k == 1)
+                     .read("frame_view", inputs.view)
+                     .read("ranges", level.ranges)
+                     .read("depth", inputs.gbuffer.depth)
+                     .read("child_means", levels[std::size_t(std::max(k - 1, 1))].means)
+                     .readWrite("counts", subsplats.counts)
+                     .read("queue", queue)
+                     .write("leaves", level.leaves)
+                     .write("children", children)
+                     .push(RefinePush{thresholds, k});
     if (k == plan.coarsest)
       pass.dispatchOver(level.width * level.height);
     else
@@ -114,11 +126,11 @@ Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inp
     if (!splits || k == 1) break;
     queue = children;
     graph.compute("splatting.refine", splatting_arguments_spv)
-        .specialize("of_leaves", false)
+        .specialize("of", 0)
         .readWrite("counts", subsplats.counts)
         .write("arguments", subsplats.arguments)
-        .read("vpl_count", vpls.count)
-        .push(LevelPush{k - 1, plan.finest, 0, 0.0f})
+        .read("vpl_count", lights.count)
+        .push(ArgumentsPush{k - 1, 0, 0})
         .dispatch(1);
   }
   return subsplats;

@@ -6,9 +6,8 @@
 #pragma once
 
 #include "frame/frame_inputs.h"
-#include "techniques/splatting/splatting_shared.h"
+#include "techniques/splatting/splatting_lights.h"
 #include "visibility/host_rays.h"
-#include "vpls/vpls.h"
 
 namespace gloam::splatting {
 
@@ -23,41 +22,45 @@ Plan planLevels(int width, int height, int coarsest_texels, int resolution);
 
 struct Level {
   int width = 0, height = 0;
-  gpu::ImageRef least,
-      greatest;             ///< geometric normal, eye depth; greatest depth -1: no surface. None at level 0
-  gpu::ImageRef positions;  ///< mean; w: pixels that show a surface. None at level 0
-  gpu::ImageRef shadings;   ///< mean shading normal. None at level 0
-  gpu::BufferRef leaves;    ///< places of subsplats
-  gpu::ImageRef light;      ///< irradiance of subsplats, A 1, else 0; none below the finest level
+  gpu::ImageRef ranges, means;  ///< splatting_ranges.glsl. None at level 0
+  gpu::BufferRef leaves;        ///< places of subsplats
+  gpu::ImageRef light;          ///< irradiance of subsplats, A 1, else 0; none below the finest level
 };
 
 struct Subsplats {
+  std::size_t most = 0;
   gpu::BufferRef points;     ///< Subsplat, coarse levels first
-  gpu::BufferRef light;      ///< irradiance; A: its change, where asked for
+  gpu::BufferRef light;      ///< irradiance
   gpu::BufferRef counts;     ///< Counts
-  gpu::BufferRef arguments;  ///< Groups: by level, then by level and chunk of lights
+  gpu::BufferRef arguments;  ///< Groups, as splatting_shared.h says
 };
 
 /// MS-3: passes "splatting.ranges". By shading normals, or geometric ones.
 std::vector<Level> recordRanges(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                                 bool by_shading_normal);
 
+/// To look at: images "splatting.least_K", "splatting.greatest_K" of ranges of level K (normal; eye depth).
+void recordRangesToLookAt(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                          std::span<const Level> levels);
+
 /// MS-4: passes "splatting.refine"; sets the levels' leaves.
 Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                           std::vector<Level>& levels, const Thresholds& thresholds, const vpls::Vpls& vpls);
+                           std::vector<Level>& levels, const Thresholds& thresholds, const LightSets& lights);
 
 struct GatherOptions {
-  bool paints_levels = false;            ///< a colour a level in place of light, to look at
+  bool paints_levels = false;  ///< a colour a level in place of light, to look at
+  bool keeps_pixels = false;   ///< level 0 has an image of its own, else its light comes by recordPixels
   visibility::HostRays* rays = nullptr;  ///< MS-8: lights are hidden by what stands in the way
   int bound_kind = 1;                    ///< splatting_light.glsl
   float light_threshold =
       0.0f;  ///< MS-10: texels larger than this part of the mean distance of their light are split; 0: none
+  float cluster_threshold = 0.0f;  ///< MS-9: what merging lights may change of their sum
 };
 
-/// MS-5, from coarse to fine: "splatting.points", "splatting.visibility", "splatting.gather", "splatting.converge", "splatting.place"; sets the levels'
-/// light.
+/// MS-5, MS-8 to MS-10, from coarse to fine: "splatting.coarse", "splatting.gather", "splatting.visibility", "splatting.place"; sets
+/// the levels' light.
 void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                  std::vector<Level>& levels, const Subsplats& subsplats, const vpls::Vpls& vpls,
+                  std::vector<Level>& levels, const Subsplats& subsplats, const LightSets& lights,
                   const GatherOptions& options);
 
 enum class Upsampling : std::uint8_t {
@@ -72,5 +75,9 @@ enum class Upsampling : std::uint8_t {
 gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> levels,
                                const Thresholds& thresholds, Upsampling upsampling, float detail,
                                gpu::BufferRef view, gpu::ImageRef normals);
+
+/// Light of pixels that are subsplats of their own into the picture, and MS-7: "splatting.place".
+void recordPixels(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Level& pixels,
+                  const Subsplats& subsplats, float detail, gpu::ImageRef irradiance);
 
 }  // namespace gloam::splatting

@@ -1,52 +1,47 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// MS-3, level 1: least and greatest linear depth and components of the geometric normal in 2 x 2 pixels, background left out; with
-// them the mean position and shading normal, at which a texel receives.
+// MS-3, level 1: ranges and means of 2 x 2 pixels, background left out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
-#include "frame/view.glsl"
+#include "techniques/splatting/splatting_ranges.glsl"
 
 layout(constant_id = 0) const bool by_shading_normal = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normals;
-layout(set = 0, binding = 3) uniform writeonly image2D least;      // normal, depth
-layout(set = 0, binding = 4) uniform writeonly image2D greatest;   // the same; depth -1: nothing there
-layout(set = 0, binding = 5) uniform writeonly image2D positions;  // mean; w: pixels
-layout(set = 0, binding = 6) uniform writeonly image2D shadings;   // mean
+layout(set = 0, binding = 0) uniform sampler2D depth;
+layout(set = 0, binding = 1) uniform usampler2D normals;
+layout(set = 0, binding = 2) uniform writeonly uimage2D ranges;
+layout(set = 0, binding = 3) uniform writeonly uimage2D means;
 
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, imageSize(least)))) return;
+  if (any(greaterThanEqual(at, imageSize(ranges)))) return;
   ivec2 size = textureSize(depth, 0);
-  FrameView view = frame_view.view;
-  vec4 low = vec4(2.0, 2.0, 2.0, 65504.0), high = vec4(-2.0, -2.0, -2.0, -1.0);
-  vec4 position = vec4(0.0);
+  Ranges range = kNothing;
+  float count = 0.0, sum = 0.0;
   vec3 shading = vec3(0.0);
+  vec2 middle = vec2(0.0);
   for (int i = 0; i < 4; ++i) {
-    ivec2 pixel = 2 * at + ivec2(i & 1, i >> 1);
-    ivec2 inside = min(pixel, size - 1);
+    ivec2 within = ivec2(i & 1, i >> 1), pixel = 2 * at + within, inside = min(pixel, size - 1);
     float d = texelFetch(depth, inside, 0).x;
     uvec2 packed_normals = texelFetch(normals, inside, 0).xy;
     bool covered = d > 0.0 && inside == pixel;
-    Ray ray = pixelRay(view, vec2(pixel) + 0.5);
-    float along = eyeDepth(view, covered ? d : 1.0);
     vec3 shaded = shadingNormal(packed_normals);
-    vec4 seen = vec4(by_shading_normal ? shaded : geometricNormal(packed_normals), min(along, 65000.0));
-    low = covered ? min(low, seen) : low;
-    high = covered ? max(high, seen) : high;
-    position += covered ? vec4(ray.origin + ray.direction * along, 1.0) : vec4(0.0);
-    shading += covered ? shaded : vec3(0.0);
+    vec3 ranged = by_shading_normal ? shaded : geometricNormal(packed_normals);
+    range.low = covered ? min(range.low, ranged) : range.low;
+    range.high = covered ? max(range.high, ranged) : range.high;
+    range.near = covered ? max(range.near, d) : range.near;
+    range.far = covered ? min(range.far, d) : range.far;
+    float one = covered ? 1.0 : 0.0;
+    count += one;
+    sum += one * d;
+    shading += one * shaded;
+    middle += one * (0.5 * vec2(within) + 0.25);
   }
-  float scale = 1.0 / max(position.w, 1.0);
-  imageStore(least, at, low);
-  imageStore(greatest, at, high);
-  imageStore(positions, at, vec4(position.xyz * scale, position.w));
-  imageStore(shadings, at, vec4(shading * scale, 0.0));
+  float scale = 1.0 / max(count, 1.0);
+  imageStore(ranges, at, packRanges(range));
+  imageStore(means, at, packMeans(Means(sum * scale, shading * scale, 0.25 * count, middle * scale)));
 }

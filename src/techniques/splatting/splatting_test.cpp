@@ -54,7 +54,9 @@ double relativeError(const Picture& got, const Picture& want) {
 TEST(Splatting, NoThresholdIsTheFullSum) {
   const Scene scene = loadScene("builtin:cornell?detail=0.5");
   const Picture full = draw(scene, settings({{"mode", "full"}}), 150, 97);
-  const Picture fine = draw(scene, settings({{"normal_threshold", "0"}, {"depth_threshold", "0"}}), 150, 97);
+  const Picture fine =
+      draw(scene, settings({{"normal_threshold", "0"}, {"depth_threshold", "0"}, {"cluster_threshold", "0"}}),
+           150, 97);
   EXPECT_LT(relativeError(fine, full), 1e-3);
 }
 

@@ -29,25 +29,26 @@ gpu::ImageRef recordUpsampling(gpu::FrameGraph& graph, std::span<const Level> le
         .specialize("coarsest", k + 1 == levels.size())
         .specialize("along_surfaces", upsampling == Upsampling::kSurfaces)
         .specialize("way", way)
+        .read("frame_view", view)
         .read("own", or_none(level.light))
         .read("coarse", coarse)
-        .read("least", level.least)
-        .read("greatest", level.greatest)
+        .read("ranges", level.ranges)
         .write("result", image)
         .push(thresholds)
-        .dispatchOver(image);
+        .dispatchOver((level.width + 1) / 2, (level.height + 1) / 2);
     coarse = image;
   }
   const auto irradiance = result(levels[0], "splatting.irradiance");
   graph.compute("splatting.finish", splatting_finish_spv)
       .specialize("detail", detail)
       .specialize("way", way)
+      .specialize("has_own", bool(levels[0].light))
       .read("frame_view", view)
       .read("own", or_none(levels[0].light))
       .read("coarse", coarse)
       .read("normals", normals)
       .write("result", irradiance)
-      .dispatchOver(irradiance);
+      .dispatchOver((levels[0].width + 1) / 2, (levels[0].height + 1) / 2);
   return irradiance;
 }
 

@@ -5,6 +5,8 @@
 // twin.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <deque>
 #include <functional>
 #include <random>
 
@@ -83,29 +85,22 @@ std::vector<glm::vec4> twin(const Buffers& levels) {
 std::vector<glm::vec4> upsampled(const Buffers& buffers) {
   gpu::Device& device = gpu::testDevice();
   gpu::FrameGraph graph(device);
-  std::vector<gpu::Image> images;
+  std::deque<gpu::Image> images;
   std::vector<Level> levels;
-  const auto image = [&](VkFormat format, int width, int height, std::vector<float> texels) {
-    images.emplace_back(device, "test", gpu::ImageDesc{.format = format, .width = width, .height = height});
-    images.back().uploadFloats(texels);
-    return images.size() - 1;
+  const auto image = [&](VkFormat format, const Buffer& buffer) -> gpu::Image& {
+    return images.emplace_back(
+        device, "test", gpu::ImageDesc{.format = format, .width = buffer.width, .height = buffer.height});
   };
-  std::vector<std::array<std::size_t, 2>> at;
+  // One normal (512, 512, 1023) in ten bits each, and one depth.
+  const glm::uvec4 flat(0x3ff80200u, 0x3ff80200u, std::bit_cast<std::uint32_t>(1.0f),
+                        std::bit_cast<std::uint32_t>(1.0f));
   for (const Buffer& buffer : buffers) {
-    std::vector<float> light, flat;
-    for (const glm::vec4& texel : buffer.light) {
-      light.insert(light.end(), {texel.x, texel.y, texel.z, texel.w});
-      flat.insert(flat.end(), {0.0f, 0.0f, 1.0f, 1.0f});
-    }
-    const auto first = image(VK_FORMAT_R32G32B32A32_SFLOAT, buffer.width, buffer.height, light);
-    at.push_back({first, image(VK_FORMAT_R16G16B16A16_SFLOAT, buffer.width, buffer.height, flat)});
+    gpu::Image& light = image(VK_FORMAT_R32G32B32A32_SFLOAT, buffer);
+    light.upload(buffer.light);
+    gpu::Image& ranges = image(VK_FORMAT_R32G32B32A32_UINT, buffer);
+    ranges.upload(std::vector<glm::uvec4>(buffer.light.size(), flat));
+    levels.push_back({.width = buffer.width, .height = buffer.height, .ranges = ranges, .light = light});
   }
-  for (std::size_t k = 0; k < buffers.size(); ++k)
-    levels.push_back({.width = buffers[k].width,
-                      .height = buffers[k].height,
-                      .least = images[at[k][1]],
-                      .greatest = images[at[k][1]],
-                      .light = images[at[k][0]]});
   gpu::Image normals(
       device, "normals",
       gpu::ImageDesc{

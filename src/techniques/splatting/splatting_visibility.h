@@ -10,22 +10,22 @@
 
 namespace gloam::splatting {
 
-/// What the host passes of one level share: its subsplats as ends of rays.
-struct LevelPlaces {
+/// What the host passes of one frame share: subsplats as ends of rays.
+struct TracedPlaces {
   bool loaded = false;
   std::size_t lights = 0;
-  std::vector<visibility::Place> places;
+  std::vector<visibility::Place> places;  ///< as in the list
 };
 
 struct VisibilityChunk {
-  int level = 0;
-  std::uint32_t chunk = 0;
-  gpu::BufferRef visible;  ///< a bit for each light of the chunk, eight bytes a leaf of the level
+  int chunk = 0;           ///< of all lights
+  gpu::BufferRef list;     ///< of subsplats that ask
+  gpu::BufferRef visible;  ///< a bit for each light of the chunk, eight bytes an entry of the list
 };
 
 /// Adds "splatting.visibility", which fills chunk.visible.
 void recordVisibility(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Subsplats& subsplats,
-                      const vpls::Vpls& vpls, visibility::HostRays& rays, const VisibilityChunk& chunk,
-                      std::shared_ptr<LevelPlaces> shared);
+                      const LightSets& lights, visibility::HostRays& rays, const VisibilityChunk& chunk,
+                      std::shared_ptr<TracedPlaces> shared);
 
 }  // namespace gloam::splatting
