@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -18,6 +19,7 @@ namespace gloam {
 namespace {
 
 constexpr int kPoints = 20000;         // of all things together
+constexpr float kThin = 0.2f;          // thickness over width of what blocks as one side
 constexpr float kLeastFilled = 0.02f;  // of a box's side squared
 
 struct SurfacePoint {
@@ -113,6 +115,34 @@ frame::Patch moved(const frame::Patch& patch, const glm::mat4& matrix) {
   return result;
 }
 
+float areaOf(const frame::Patch& patch) {
+  return 4.0f * glm::length(glm::cross(patch.half_u, patch.half_v));
+}
+
+/// The two sides of a thin thing block once: of each pair the side that looks at `toward` stays.
+void keepOneOfPairs(std::vector<frame::Patch>& patches, const glm::mat4& world_from_object,
+                    const glm::vec3& toward) {
+  const auto looks = [&](const frame::Patch& patch) { return glm::dot(toward - patch.center, patch.normal); };
+  std::vector<frame::Patch> world;
+  for (const frame::Patch& patch : patches) world.push_back(moved(patch, world_from_object));
+  std::vector<bool> dropped(patches.size(), false);
+  for (std::size_t a = 0; a < patches.size(); ++a) {
+    for (std::size_t b = 0; b < patches.size() && !dropped[a]; ++b) {
+      if (a == b || dropped[b] || glm::dot(world[a].normal, world[b].normal) > -0.9f) continue;
+      const glm::vec3 apart = world[a].center - world[b].center;
+      const float size = std::sqrt(std::min(areaOf(world[a]), areaOf(world[b])));
+      const float across = std::abs(glm::dot(apart, world[b].normal));
+      const bool pair =
+          across < kThin * size && glm::dot(apart, apart) - across * across < 0.1f * size * size;
+      if (pair)
+        dropped[looks(world[a]) < looks(world[b]) || (looks(world[a]) == looks(world[b]) && a > b) ? a : b] =
+            true;
+    }
+  }
+  std::size_t i = 0;
+  std::erase_if(patches, [&](const frame::Patch&) { return dropped[i++]; });
+}
+
 }  // namespace
 
 FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers) {
@@ -155,6 +185,20 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
   };
   fill(senders, &Placed::senders);
   fill(blockers, &Placed::blockers);
+  const glm::vec3 middle = 0.5f * (posed.bounds_min + posed.bounds_max);
+  std::vector<float> areas;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    keepOneOfPairs(things_[i].blockers, instances[i]->world_from_object, middle);
+    for (const frame::Patch& patch : things_[i].blockers)
+      areas.push_back(areaOf(moved(patch, instances[i]->world_from_object)));
+  }
+  if (areas.size() <= std::size_t(kMostBlockers)) return;
+  std::ranges::nth_element(areas, areas.begin() + kMostBlockers, std::greater());
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    std::erase_if(things_[i].blockers, [&](const frame::Patch& patch) {
+      return areaOf(moved(patch, instances[i]->world_from_object)) <= areas[std::size_t(kMostBlockers)];
+    });
+  }
 }
 
 std::vector<frame::Patch> FlatPatches::blockers(const PosedScene& posed) const {

@@ -10,8 +10,9 @@
 
 namespace gloam {
 
-/// Rectangles that stand in the light: at most so many of all things together.
-inline constexpr int kBlockingPatches = 12;
+/// Rectangles that stand in the light: about so many of all things together, at least those of each thing's sides; the largest
+/// kMostBlockers of them.
+inline constexpr int kBlockingPatches = 12, kMostBlockers = 24;
 
 class FlatPatches {
  public:
