@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "scene/builtin_papers.h"
 #include "scene/scene_builder.h"
 
 namespace gloam {
@@ -34,6 +35,13 @@ const std::vector<Entry>& entries() {
        makeLamp},
       {{"swing", "a room with a red and a blue wall in which a lamp swings (4 s, loops): light that bounces"},
        makeSwing},
+      {{"teapot", "a teapot between coloured walls under a spot (8K triangles)"},
+       makeTeapot},
+      {{"statue", "a robed statue turns between coloured walls (8 s, loops; triangles)"}, makeStatue},
+      {{"serpent", "a coiled serpent and a hare between coloured walls (405K triangles)"}, makeSerpent},
+      {{"flying", "six hares turn in the air between coloured walls (8 s, loops; 412K triangles)"},
+       makeFlyingHares},
+      {{"clutter", "two hundred small things on a floor under a spot"}, makeClutter},
       {{"textured", "tiles, bricks, a plant: textures, normal maps, alpha masks, texture transforms"},
        makeTextured},
       {{"lanterns", "a knot and a ball pass glowing panels under a moving lamp (8 s, loops): local light"},
