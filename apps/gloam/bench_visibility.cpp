@@ -37,8 +37,8 @@ double median(std::vector<double> values) {
 }
 
 /// What the camera sees, set by set: pixels of one set follow one another.
-std::vector<visibility::SightPoint> pointsSeen(const trace::Tracer& tracer, const PosedCamera& camera,
-                                               glm::ivec2 size) {
+std::vector<visibility::SightPoint> pointsSeen(const visibility::WorldTracer& tracer,
+                                               const PosedCamera& camera, glm::ivec2 size) {
   const CameraRays rays = makeCameraRays(camera, size.x, size.y);
   std::vector<visibility::SightPoint> points;
   for (int set = 0; set < kPattern * kPattern; ++set) {
@@ -147,7 +147,7 @@ struct Measured {
   double still_ms = 0.0, moved_ms = 0.0;
 };
 
-void measureHost(const Stage& stage, const trace::Tracer& tracer, Measured& result) {
+void measureHost(const Stage& stage, const visibility::WorldTracer& tracer, Measured& result) {
   const visibility::LightRows rows{reinterpret_cast<const std::byte*>(stage.rows.data()),
                                    sizeof(vpls::WalkVpl), stage.rows.size()};
   const std::vector<trace::LoggedRay> rays =
@@ -212,7 +212,7 @@ int benchVisibility(const BenchChoice& choice, Console& console) {
   console.release();
   Stage stage(choice.device);
   stage.prepare(scene, environment, posed, camera, choice.view.size);
-  const trace::Tracer& tracer = stage.sight.world().tracer();
+  const visibility::WorldTracer& tracer = stage.sight.world().tracer();
   Measured m{.triangles = tracer.triangleCount(), .points = stage.points.size()};
   measureHost(stage, tracer, m);
   measureDevice(stage, posed, camera, m);

@@ -136,6 +136,8 @@ Scene downloadScene(const frame::GpuScene& scene) {
     }
     if (part.alpha_mask) host.materials[part.row.material].alpha_mask = true;
   }
+  if (host.materials.empty()) host.materials.emplace_back();
+  host.meshes.emplace_back().name = "nothing";
   return host;
 }
 

@@ -154,7 +154,7 @@ void forBlocks(std::span<const Ordered> order, std::size_t begin, std::size_t en
 
 }  // namespace
 
-std::uint64_t traceSight(const trace::Tracer& tracer, std::span<const SightPoint> points,
+std::uint64_t traceSight(const WorldTracer& tracer, std::span<const SightPoint> points,
                          const LightRows& lights, std::span<const SightSet> sets, std::uint32_t words,
                          std::span<std::uint32_t> visible) {
   const auto by_set = lightsBySet(lights, sets, words);

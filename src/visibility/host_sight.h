@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
-#include "trace/tracer.h"
 #include "visibility/visibility_shared.h"
+#include "visibility/world_tracer.h"
 
 namespace gloam::visibility {
 
@@ -18,7 +18,7 @@ struct LightRows {
 
 /// Fills visible[word * points.size() + p] (visibility.h) on all cores; returns the number of rays. Bits do not depend on the
 /// number of threads. What sets say beyond the rows is not looked at.
-std::uint64_t traceSight(const trace::Tracer& tracer, std::span<const SightPoint> points,
+std::uint64_t traceSight(const WorldTracer& tracer, std::span<const SightPoint> points,
                          const LightRows& lights, std::span<const SightSet> sets, std::uint32_t words,
                          std::span<std::uint32_t> visible);
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "visibility/host_world.h"
 
-#include <algorithm>
-
 #include "visibility/host_scene.h"
 
 namespace gloam::visibility {
@@ -11,7 +9,9 @@ namespace gloam::visibility {
 struct HostWorld::State {
   Scene scene;
   PosedScene posed;
-  mutable std::unique_ptr<trace::Tracer> tracer;  // made when it is first asked for
+  std::vector<bool> moves;                      // that ever moved, since the set of instances is this one
+  mutable std::unique_ptr<WorldTracer> tracer;  // as of tracer_pose
+  mutable std::uint64_t tracer_pose = 0;
   std::uint64_t layout = 0, pose = 0;
 };
 
@@ -58,20 +58,31 @@ void HostWorld::update(const gpu::HostAccess& access, const frame::GpuScene& sce
   PosedScene posed;
   for (std::size_t i = 0; i < scene.instances().size(); ++i)
     posed.instances.push_back(instanceOf(scene, i, vertices));
-  const bool same_layout = s.layout == scene.layoutRevision();
-  if (same_layout && std::ranges::equal(posed.instances, s.posed.instances, same)) return;
   posed.bounds_min = scene.boundsMin();
   posed.bounds_max = scene.boundsMax();
-  s.tracer.reset();  // refers to the scene
-  if (!same_layout) s.scene = downloadScene(scene);
-  s.layout = scene.layoutRevision();
+  bool moved = false;
+  if (s.layout != scene.layoutRevision()) {
+    s.tracer.reset();  // refers to the scene
+    s.scene = downloadScene(scene);
+    s.layout = scene.layoutRevision();
+    s.moves.assign(posed.instances.size(), false);
+    moved = true;
+  } else {
+    for (std::size_t i = 0; i < posed.instances.size(); ++i) {
+      if (same(posed.instances[i], s.posed.instances[i])) continue;
+      s.moves[i] = moved = true;
+    }
+  }
+  if (!moved) return;
   s.posed = std::move(posed);
   ++s.pose;
 }
 
-const trace::Tracer& HostWorld::tracer() const {
+const WorldTracer& HostWorld::tracer() const {
   const State& s = *state_;
-  if (!s.tracer) s.tracer = std::make_unique<trace::Tracer>(s.scene, s.posed);
+  if (!s.tracer || s.tracer_pose != s.pose)
+    s.tracer = std::make_unique<WorldTracer>(s.scene, s.posed, s.moves, std::move(s.tracer));
+  s.tracer_pose = s.pose;
   return *s.tracer;
 }
 const Scene& HostWorld::scene() const {

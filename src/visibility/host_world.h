@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "frame/gpu_scene.h"
-#include "trace/tracer.h"
+#include "visibility/world_tracer.h"
 
 namespace gloam::visibility {
 
@@ -24,8 +24,8 @@ class HostWorld {
 
   // ---- After an update ----
   /// Built when it is first asked for after something moved, by one thread. Throws Error where it does not fit into memory.
-  const trace::Tracer& tracer() const;
-  /// Meshes, materials and textures (of at most 1024 texels a side) as trace/surface.h reads them. Meshes have positions, texture
+  const WorldTracer& tracer() const;
+  /// Meshes (and an empty one at the end), materials and textures (of at most 1024 texels a side) as trace/surface.h reads them. Meshes have positions, texture
   /// coordinates, colours and triangles, no normals.
   const Scene& scene() const;
   /// Instances in the order of GpuScene::instances().

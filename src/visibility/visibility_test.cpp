@@ -83,7 +83,7 @@ int seen(const std::vector<std::uint32_t>& bits) {
 }
 
 /// What the documentation says, one ray after the other.
-std::vector<std::uint32_t> slowly(const trace::Tracer& tracer, const Asked& asked) {
+std::vector<std::uint32_t> slowly(const WorldTracer& tracer, const Asked& asked) {
   std::vector<std::uint32_t> bits(asked.points.size() * asked.words, 0u);
   for (std::size_t p = 0; p < asked.points.size(); ++p) {
     const SightPoint& point = asked.points[p];
@@ -163,6 +163,29 @@ TEST(Visibility, WhatMovesIsFollowed) {
     const auto device = ask(walking, sight, pose(walker, time_s), manyAsked(), Means::kDevice);
     EXPECT_LE(differing(host, device), seen(host) / 1000);
     EXPECT_GT(seen(host), 1000);
+  }
+}
+
+// Whether in one hierarchy or in two, and whatever moved before.
+TEST(Visibility, WhatMovedIsWhereAFreshSceneHasIt) {
+  Scene scene = wallAndBall();
+  frame::TestFrame frame(scene);
+  Visibility sight(gpu::testDevice());
+  const Asked asked = manyAsked();
+  for (const int node : {2, 1, 0}) {
+    scene.nodes[std::size_t(node)].translation += glm::vec3(0.3f, 0.1f, -0.2f);
+    const auto now = ask(frame, sight, pose(scene, 0.0f), asked, Means::kHost);
+    Visibility fresh(gpu::testDevice());
+    EXPECT_LE(differing(now, ask(frame, fresh, pose(scene, 0.0f), asked, Means::kHost)), 3);
+    for (int i = 0; i < 200; ++i) {
+      const glm::vec3 origin = asked.points[std::size_t(i)].position + glm::vec3(0, 1e-3f, 0);
+      const trace::Ray ray{origin, asked.points[std::size_t(i) + 1].normal};
+      const trace::Hit hit = sight.world().tracer().closest(ray), want = fresh.world().tracer().closest(ray);
+      EXPECT_EQ(hit.instance, want.instance);
+      EXPECT_EQ(hit.triangle, want.triangle);
+      if (!hit) continue;
+      EXPECT_EQ(sight.world().tracer().surfaceOffset(hit), fresh.world().tracer().surfaceOffset(want));
+    }
   }
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr double kBlind = 0.2;
 
 /// What a light adds to the light at a point, the mean of the colours; 0 where it is not seen.
-float addedAt(const visibility::SightPoint& point, const WalkVpl& row, const trace::Tracer& tracer) {
+float addedAt(const visibility::SightPoint& point, const WalkVpl& row,
+              const visibility::WorldTracer& tracer) {
   if (!sends(row)) return 0.0f;
   glm::vec3 way;
   const glm::vec3 light = walkIrradiance(row, point.position, way);
@@ -28,7 +29,7 @@ float addedAt(const visibility::SightPoint& point, const WalkVpl& row, const tra
 }
 
 /// The share of each row in what is seen, summed over the points.
-std::vector<float> sharesOf(std::span<const WalkVpl> rows, const trace::Tracer& tracer,
+std::vector<float> sharesOf(std::span<const WalkVpl> rows, const visibility::WorldTracer& tracer,
                             std::span<const visibility::SightPoint> seen) {
   const std::size_t count = seen.size();
   std::vector<float> added(rows.size() * count);
@@ -81,7 +82,8 @@ void choose(std::span<const WalkVpl> rows, std::span<const float> shares, double
 }  // namespace
 
 std::vector<WalkVpl> chooseRows(const WalkPlan& from, std::span<const WalkVpl> candidates, const WalkPlan& to,
-                                const trace::Tracer& tracer, std::span<const visibility::SightPoint> seen) {
+                                const visibility::WorldTracer& tracer,
+                                std::span<const visibility::SightPoint> seen) {
   const std::vector<float> shares = sharesOf(candidates, tracer, seen);
   std::vector<WalkVpl> rows(std::size_t(to.sets) * to.stride(), emptyRow());
   for (std::size_t s = 0; s < std::size_t(to.sets); ++s) {

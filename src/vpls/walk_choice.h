@@ -15,6 +15,7 @@ inline constexpr std::uint32_t kSeenPoints = 32;
 /// alike. A fifth of the choice is blind, so that no light is left out: sums stay true in the mean, and a row that is kept stands for
 /// at most six times its light. No such points: a choice without preference.
 std::vector<WalkVpl> chooseRows(const WalkPlan& from, std::span<const WalkVpl> candidates, const WalkPlan& to,
-                                const trace::Tracer& tracer, std::span<const visibility::SightPoint> seen);
+                                const visibility::WorldTracer& tracer,
+                                std::span<const visibility::SightPoint> seen);
 
 }  // namespace gloam::vpls

@@ -85,7 +85,7 @@ Walks Walker::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, c
   pass.run([&s, &world, &scene = inputs.scene, plan, candidates, walks, lamps,
             seen](gpu::HostAccess& access) {
     world.update(access, scene);
-    const trace::Tracer& tracer = world.tracer();  // built here, not by the threads that trace
+    const visibility::WorldTracer& tracer = world.tracer();  // built here, not by the threads that trace
     s.follow(world);
     std::vector<WalkVpl> rows =
         makeRows(candidates, {world, lamps, s.emitters, s.environment, scene.boundsMin(), scene.boundsMax()});
