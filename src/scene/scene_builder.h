@@ -92,6 +92,10 @@ Scene makeBox(const Detail& detail, NamedValues& values);             //
 Scene makeLinks(const Detail& detail, NamedValues& values);           //
 Scene makeBars(const Detail& detail, NamedValues& values);            //
 Scene makeFurnacePair(const Detail& detail, NamedValues& values);     //
+Scene makeBumps(const Detail& detail, NamedValues& values);           // builtin_filtered.cpp
+Scene makeConference(const Detail& detail, NamedValues& values);      //
+Scene makeVehicle(const Detail& detail, NamedValues& values);         // builtin_vehicle.cpp
+Scene makeWetFloor(const Detail& detail, NamedValues& values);        //
 Scene makeWalker(const Detail& detail, NamedValues& values);          // builtin_walker.cpp
 
 }  // namespace gloam

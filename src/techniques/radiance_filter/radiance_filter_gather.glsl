@@ -36,7 +36,7 @@ void addRows(inout float sum[GLOAM_VALUES], uint index, uint point_count, SightP
   do {
     uint row = first + (word - 1u) * 32u + uint(findLSB(left));
     WalkVpl vpl = rows.at[row];
-    vpl.bound *= push.interleaving.bound;
+    if (vpl.bounce > 0u) vpl.bound *= push.interleaving.bound;
     vec3 to_light;
     vec3 light = walkIrradiance(vpl, point.position, to_light);
     addLight(sum, light, to_light);

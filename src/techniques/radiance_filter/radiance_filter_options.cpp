@@ -36,10 +36,11 @@ const std::vector<Option>& options() {
        .maximum = 16,
        .help = "surfaces that light meets before it reaches the one that is seen"},
       {.name = "bound",
-       .default_value = 4.0f,
+       .default_value = 16.0f,
        .minimum = 0.0,
        .maximum = 1e6,
-       .help = "least squared distance to a virtual light, in parts of the area that it stands for over pi"},
+       .help = "least squared distance to a virtual light of a lit surface, in parts of the area that it "
+               "stands for, of all sets together, over pi"},
       {.name = "mode",
        .default_value = std::string("radiance"),
        .choices = {"radiance", "irradiance", "irradiance_normals", "brute", "brute_exact"},

@@ -32,7 +32,7 @@ struct Interleaving {
   uint tile_height;
   uint only_set;  // brute force: all pixels use this one, sets_x = sets_y = 1; else kEverySet
   float offset;   // metres, at least, at which rays leave a surface
-  float bound;    // times the bound of a virtual light
+  float bound;    // times the bound of a virtual light on a lit surface
 };
 GLOAM_SHARED_SIZE(Interleaving, 36)
 
