@@ -27,18 +27,22 @@ vec3 patchVector(PatchRow row, vec3 position, out float height) {
   return (dot(sum, row.normal) > 0.0) == (height >= 0.0) ? -sum : sum;
 }
 
-/// A blocker. `there`: 0 to 1. In its plane one fades out, from behind at some distance: a point of a surface may lie a little below the
-/// rectangle that stands for it.
+/// A blocker. `there`: 0 to 1. For a surface that faces as it does one fades out in its plane, and from behind at some distance: a point
+/// of a surface may lie a little below the rectangle that stands for it. The ground at a wall's foot faces another way.
+const float kPatchNear = 0.03;  // of its size
 struct PatchCone {
   vec3 direction;
   float sin_half_angle, there;
 };
 PatchCone patchCone(PatchRow row, vec3 position, vec3 normal) {
-  float height;
-  vec3 toward = patchVector(row, position, height);
-  float size = length(toward), scale = length(row.half_u + row.half_v);
-  return PatchCone(size > 1e-9 ? toward / size : normal, sqrt(min(size / 3.14159265, 1.0)),
-                   height >= 0.0 ? smoothstep(0.0, 0.002, height / scale) : smoothstep(0.02, 0.1, -height / scale));
+  float scale = length(row.half_u + row.half_v), height = dot(position - row.center, row.normal);
+  float own = smoothstep(0.5, 0.9, dot(normal, row.normal));
+  // What stands at it is seen from a little before it: rectangles end somewhat short of where wall and ground meet.
+  float lift = height > -kPatchNear * scale ? (1.0 - own) * max(0.0, kPatchNear * scale - height) : 0.0, unused;
+  vec3 toward = patchVector(row, position + lift * row.normal, unused);
+  float size = length(toward);
+  float apart = height >= 0.0 ? smoothstep(0.0, 0.002, height / scale) : smoothstep(0.02, 0.1, -height / scale);
+  return PatchCone(size > 1e-9 ? toward / size : normal, sqrt(min(size / 3.14159265, 1.0)), mix(1.0, apart, own));
 }
 
 #endif

@@ -1,17 +1,11 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Pixels that four receivers fit badly stand on lists by squares of 2 x 2 pixels: a word has the square's place and a bit for each
-// of its pixels. What lies on one surface there is computed once. Includers declare frame_view, depth, normals and push.divisor.
+// Entries of the list of pixels that are computed from scratch: those of a square of 2 x 2 on one surface are computed once. Includers
+// declare frame_view, depth, normals and push.divisor.
 #ifndef GLOAM_PROXIES_QUADS_GLSL
 #define GLOAM_PROXIES_QUADS_GLSL
-
-/// quad: in squares, counted from the first that `divisor` has (upsampling begins half a block before the picture).
-uint packQuad(ivec2 quad, uint mask) { return uint(quad.y) << 18 | uint(quad.x) << 4 | mask; }
-ivec2 firstPixel(uint packed, uint divisor) {
-  return 2 * ivec2(packed >> 4 & 0x3fffu, packed >> 18) - int(divisor / 2u);
-}
-ivec2 pixelOf(ivec2 first, uint which) { return first + ivec2(which & 1u, which >> 1); }
+#include "frame/quads.glsl"
 
 /// The middle of the pixels of a list's entry, and the mean of their normals.
 struct Middle {

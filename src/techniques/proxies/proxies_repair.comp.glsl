@@ -53,7 +53,7 @@ void main() {
   }
   vec3 terms[9];
   shadeTerms(o, terms);
-  vec3 peak = peakLeft(light.row.peak, o), sent = max(sum.sent.rgb, vec3(0.0)) * share;
+  vec3 peak = peakLeft(light.row.peak, o) * light.row.peak.irradiance, sent = max(sum.sent.rgb, vec3(0.0)) * share;
   for (uint k = 0u; k < 4u; ++k) {
     if ((packed >> k & 1u) == 0u) continue;
     ivec2 pixel = pixelOf(first, k);

@@ -23,7 +23,7 @@ layout(scalar, set = 0, binding = 13) readonly buffer LogTable { vec4 at[]; } lo
 layout(set = 0, binding = 4) uniform writeonly image2DArray field;
 layout(set = 0, binding = 10) uniform writeonly image2DArray planes;
 layout(set = 0, binding = 5) uniform writeonly image2D direct;
-layout(set = 0, binding = 6) uniform writeonly image2D indirect;
+layout(set = 0, binding = 6) uniform writeonly image2D indirect;  // A: what is left of the peak
 layout(set = 0, binding = 7) uniform writeonly image2D optical_depth;
 layout(set = 0, binding = 8) uniform writeonly image2D visibility;
 layout(set = 0, binding = 9) uniform writeonly image2D normalisation;
@@ -53,25 +53,20 @@ void main() {
   imageStore(field, ivec3(place, 3), vec4(o[12], o[13], o[14], o[15]));
   vec3 n = normal.xyz, t[9];
   shadeTerms(o, t);
-  vec3 rest_lit = irradianceOf(t, n), peak = peakLeft(light.row.peak, o);
-  float facing = dot(n, light.row.peak.direction);
-  vec3 lit = max(rest_lit, vec3(0.0)) + peak * max(facing, 0.0);
-  imageStore(direct, place, vec4(lit * covered, 1.0));
-  // How it changes with the normal, to first order: E(n) = dx n.x + dy n.y + dz n.z + rest.
+  vec3 lit = irradianceOf(t, n);
+  float peak = peakLeft(light.row.peak, o);
+  vec3 peak_lit = peak * max(0.0, dot(n, light.row.peak.direction)) * light.row.peak.irradiance;
+  imageStore(direct, place, vec4((max(lit, vec3(0.0)) + peak_lit) * covered, 1.0));
+  // How the rest changes with the normal, to first order: E(n) = dx n.x + dy n.y + dz n.z + rest.
   const float kA = 0.488602512, kB = 1.09254843;
   vec3 dx = kA * t[3] + kB * (n.y * t[4] + n.z * t[7] + n.x * t[8]);
   vec3 dy = kA * t[1] + kB * (n.x * t[4] + n.z * t[5] - n.y * t[8]);
   vec3 dz = kA * t[2] + kB * (n.y * t[5] + n.x * t[7]) + 1.89234939 * n.z * t[6];
-  // What is held at 0 stays there.
-  vec3 kept = vec3(greaterThan(rest_lit, vec3(0.0))), turned = facing > 0.0 ? peak : vec3(0.0);
-  dx = dx * kept + turned * light.row.peak.direction.x;
-  dy = dy * kept + turned * light.row.peak.direction.y;
-  dz = dz * kept + turned * light.row.peak.direction.z;
   vec3 rest = lit - (dx * n.x + dy * n.y + dz * n.z);
   imageStore(planes, ivec3(place, 0), vec4(dx.r, dy.r, dz.r, rest.r));
   imageStore(planes, ivec3(place, 1), vec4(dx.g, dy.g, dz.g, rest.g));
   imageStore(planes, ivec3(place, 2), vec4(dx.b, dy.b, dz.b, rest.b));
-  imageStore(indirect, place, vec4(max(sent.rgb, vec3(0.0)) * (normalise ? share : 1.0) * covered, 1.0));
+  imageStore(indirect, place, vec4(max(sent.rgb, vec3(0.0)) * (normalise ? share : 1.0) * covered, peak * covered));
   imageStore(optical_depth, place, vec4(-log0.x / kShZonal0 * covered));
   imageStore(visibility, place, vec4(o[0] / kShZonal0 * covered));
   imageStore(normalisation, place, vec4(share * covered));

@@ -24,6 +24,14 @@ vec3 litThrough(const float o[16], vec3 normal) {
   return irradianceThrough(o, normal) + peakThrough(light.row.peak, o, normal);
 }
 
+/// Both parts, where irradiance of the rest is known with its change by the normal, a colour each, and how much is left of the peak.
+vec3 litByPlanes(vec4 red, vec4 green, vec4 blue, float peak_left, vec3 normal) {
+  vec4 n = vec4(normal, 1.0);
+  float facing = max(0.0, dot(normal, light.row.peak.direction));
+  return max(vec3(dot(red, n), dot(green, n), dot(blue, n)), vec3(0.0)) +
+         clamp(peak_left, 0.0, 1.0) * facing * light.row.peak.irradiance;
+}
+
 /// xi: the solid angle that all proxies block together over the sum of what each would alone.
 float overlapShare(float o0, float solid_angles) {
   float blocked = max(0.0, kShZonal0 - o0) * kShZonal0;

@@ -20,14 +20,14 @@ layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D normals;
 layout(set = 0, binding = 3) uniform sampler2D receiver_normal;  // w: depth along the axis, 0: background
 layout(set = 0, binding = 4) uniform sampler2DArray field;  // O_p, or planes: red, green, blue
-layout(set = 0, binding = 5) uniform sampler2D indirect;
+layout(set = 0, binding = 5) uniform sampler2D indirect;  // A: what is left of the peak
 layout(scalar, set = 0, binding = 6) uniform LightBlock { ProxyLight row; } light;
 layout(scalar, set = 0, binding = 7) buffer Misfits { RepairList list; uint at[]; } misfits;
 layout(set = 0, binding = 8) uniform writeonly image2D direct_full;
 layout(set = 0, binding = 9) uniform writeonly image2D indirect_full;
 layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; } push;
 
-#include "techniques/proxies/proxies_quads.glsl"
+#include "frame/quads.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 
 vec4 receiverAt(ivec2 place) {
@@ -49,8 +49,8 @@ void main() {
   ivec2 p00 = clamp(at, ivec2(0), last), p11 = min(p00 + 1, last);
   ivec2 p10 = ivec2(p11.x, p00.y), p01 = ivec2(p00.x, p11.y);
   vec4 r00 = receiverAt(p00), r10 = receiverAt(p10), r01 = receiverAt(p01), r11 = receiverAt(p11);
-  vec3 s00 = texelFetch(indirect, p00, 0).rgb, s10 = texelFetch(indirect, p10, 0).rgb;
-  vec3 s01 = texelFetch(indirect, p01, 0).rgb, s11 = texelFetch(indirect, p11, 0).rgb;
+  vec4 s00 = texelFetch(indirect, p00, 0), s10 = texelFetch(indirect, p10, 0);
+  vec4 s01 = texelFetch(indirect, p01, 0), s11 = texelFetch(indirect, p11, 0);
 #define GLOAM_FIELD(layer)                                                                                  \
   mat4(texelFetch(field, ivec3(p00, layer), 0), texelFetch(field, ivec3(p10, layer), 0),                    \
        texelFetch(field, ivec3(p01, layer), 0), texelFetch(field, ivec3(p11, layer), 0))
@@ -89,20 +89,19 @@ void main() {
     }
     w = total > 1e-20 ? w / total : vec4(0.25);
     vec4 a = f0 * w, b = f1 * w, c = f2 * w;
+    vec4 sent = w.x * s00 + w.y * s10 + w.z * s01 + w.w * s11;
     vec3 lit;
     if (whole_field) {
       vec4 e = f3 * w;
       lit = litThrough(
           float[16](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, e.x, e.y, e.z, e.w), normal);
     } else {
-      vec4 n = vec4(normal, 1.0);
-      lit = max(vec3(dot(a, n), dot(b, n), dot(c, n)), vec3(0.0));
+      lit = litByPlanes(a, b, c, sent.a, normal);
     }
-    vec3 sent = w.x * s00 + w.y * s10 + w.z * s01 + w.w * s11;
     float shown = covered ? 1.0 : 0.0;
     if (inside) {
       imageStore(direct_full, pixel, vec4(lit * shown, kept));
-      imageStore(indirect_full, pixel, vec4(sent * shown, 1.0));
+      imageStore(indirect_full, pixel, vec4(sent.rgb * shown, 1.0));
     }
   }
 }

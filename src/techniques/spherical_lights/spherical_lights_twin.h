@@ -137,12 +137,18 @@ class Twin {
       if (j < radiance_.size()) arriving += counts * radiance_[j];
     }
     for (const PatchRow& row : rows_.blocking_patches) {
-      const glm::vec3 toward = patchVector(row, p);
-      const float size = glm::length(toward), height = glm::dot(p - row.center, row.normal);
+      const float scale = glm::length(row.half_u + row.half_v), height = glm::dot(p - row.center, row.normal);
+      const auto smooth = [](float x) {
+        const float t = glm::clamp(x, 0.0f, 1.0f);
+        return t * t * (3.0f - 2.0f * t);
+      };
+      const float own = smooth((glm::dot(n, row.normal) - 0.5f) / 0.4f), near = 0.03f * scale;
+      const float lift = height > -near ? (1.0f - own) * std::max(0.0f, near - height) : 0.0f;
+      const glm::vec3 toward = patchVector(row, p + lift * row.normal);
+      const float size = glm::length(toward);
       if (size < 1e-9f) continue;
-      const float scale = glm::length(row.half_u + row.half_v);
       const float step = height >= 0.0f ? height / scale / 0.002f : (-height / scale - 0.02f) / 0.08f;
-      const float t = glm::clamp(step, 0.0f, 1.0f), there = t * t * (3.0f - 2.0f * t);
+      const float there = 1.0f + own * (smooth(step) - 1.0f);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
       const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone) {
