@@ -71,6 +71,15 @@ int benchTechnique(const BenchChoice& choice, Console& console) {
 void chooseDefaults(BenchChoice& choice, const CLI::App& app) {
   if (choice.paper && app.get_option("SCENE")->empty())
     choice.scene.name = choice.subject == "splatting" ? "builtin:swing" : "builtin:walker";
+  if (choice.paper && choice.subject == "radiance_filter") {
+    // Lit by what glows in it; brute force at every pixel takes its time.
+    if (app.get_option("SCENE")->empty()) {
+      choice.scene.name = "builtin:bumps";
+      if (choice.light.environment.empty()) choice.light.environment = "none";
+    }
+    if (app.get_option("--size")->empty()) choice.view.size = {192, 144};
+    return;
+  }
   if ((choice.paper || choice.scaling) && app.get_option("--size")->empty()) choice.view.size = {1024, 1024};
 }
 

@@ -17,6 +17,7 @@ struct Paper {
 };
 constexpr Paper kPapers[] = {
     {"proxies", measureProxiesPaper},
+    {"radiance_filter", measureRadianceFilterPaper},
     {"spherical_lights", measureSphericalLightsPaper},
     {"splatting", measureSplattingPaper},
 };

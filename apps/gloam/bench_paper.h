@@ -44,6 +44,7 @@ std::vector<std::string> techniquesWithPaper();
 int benchPaper(const BenchChoice& choice, Console& console);
 
 PaperTable measureProxiesPaper(const BenchChoice& choice, Console& console);
+PaperTable measureRadianceFilterPaper(const BenchChoice& choice, Console& console);
 PaperTable measureSphericalLightsPaper(const BenchChoice& choice, Console& console);
 PaperTable measureSplattingPaper(const BenchChoice& choice, Console& console);
 

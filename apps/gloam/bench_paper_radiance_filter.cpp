@@ -1,0 +1,156 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// Segovia, Wald 2008, "Radiance filtering": figures 2 and 4 as numbers, and section 4.1, which expects but does not measure: the
+// filter of three bands against one shadow ray a pixel, and two to three times the bytes.
+#include <fmt/core.h>
+#include <gloam/metrics.h>
+#include <gloam/reference.h>
+
+#include <cmath>
+
+#include "bench_paper.h"
+
+namespace gloam::cli {
+namespace {
+
+using Better = PaperRow::Better;
+using Values = std::vector<std::pair<const char*, std::string>>;
+
+constexpr int kSides[] = {2, 4, 8, 16};
+constexpr const char* kModes[] = {"radiance", "irradiance", "irradiance_normals", "brute", "brute_exact"};
+constexpr int kReferenceSamples = 256;
+
+// Bytes a pixel: what all modes read (frame/gbuffer.h), three bands in halves, one irradiance in halves (RGBA).
+constexpr double kGBufferBytes = 44.0, kFieldBytes = 56.0, kIrradianceBytes = 8.0;
+
+RenderOptions with(const BenchStage& stage, const Values& values) {
+  RenderOptions options = stage.options;
+  for (const auto& [name, value] : values) options.settings.set(name, value);
+  return options;
+}
+
+Image drawn(BenchStage& stage, const Values& values) {
+  if (interrupted()) throw Interrupted("interrupted: no figures");
+  const RenderedFrame frame = stage.renderer.render(stage.posed, stage.camera, with(stage, values));
+  return frame.layers.image("", {"R", "G", "B"}, "frame");
+}
+
+Image reference(const BenchStage& stage, const BenchChoice& choice, Console& console) {
+  ReferenceOptions options;
+  options.width = choice.view.size.x, options.height = choice.view.size.y;
+  options.supersample = choice.view.supersample;
+  options.bounces = stage.options.settings.integer("bounces");
+  return renderReference(stage.scene, stage.posed, stage.camera, stage.environment, options,
+                         {.samples = kReferenceSamples}, false, console.progress())
+      .image("", {"R", "G", "B"}, "reference");
+}
+
+double relativeRmse(const Image& a, const Image& b) {
+  return std::sqrt(relativeSquaredError(a, b));
+}
+
+/// Pictures of one number of sets, each against the truth and against brute force of its own kind.
+void addErrors(PaperTable& table, BenchStage& stage, const Image& truth, int side) {
+  Image pictures[5];
+  for (int m = 0; m < 5; ++m)
+    pictures[m] = drawn(stage, {{"mode", kModes[m]}, {"sets", std::to_string(side)}});
+  const std::string at = fmt::format("{}x{}", side, side);
+  const auto add = [&](const std::string& name, double value, const char* unit, Better better) {
+    table.rows.push_back({fmt::format("{}: {}", at, name), value, std::nullopt, unit, better});
+  };
+  for (int m = 0; m < 5; ++m) {
+    add(fmt::format("{} against the path tracer", kModes[m]), 100.0 * relativeRmse(pictures[m], truth),
+        "% RMSE", Better::kLower);
+    const double decibels = psnr(pictures[m], truth);
+    add(fmt::format("{} against the path tracer", kModes[m]), decibels, "dB PSNR", Better::kHigher);
+    table.plot.curves[std::size_t(m)].values.push_back(decibels);
+  }
+  for (int m = 0; m < 3; ++m)
+    add(fmt::format("{} against {}: interleaving alone", kModes[m], m == 0 ? "brute" : "brute_exact"),
+        psnr(pictures[m], pictures[m == 0 ? 3 : 4]), "dB PSNR", Better::kHigher);
+  add("brute against brute_exact: three bands alone", 100.0 * relativeRmse(pictures[3], pictures[4]),
+      "% RMSE", Better::kLower);
+  add("error of radiance over that of brute, both against the path tracer",
+      relativeRmse(pictures[0], truth) / relativeRmse(pictures[3], truth), "ratio", Better::kLower);
+}
+
+/// Milliseconds of the passes of one frame whose names end so.
+double timeOf(const RenderedFrame& frame, std::initializer_list<const char*> verbs) {
+  double sum = 0.0;
+  for (const PassTime& pass : frame.passes) {
+    for (const char* verb : verbs)
+      sum += pass.name == fmt::format("radiance_filter.{}", verb) ? pass.milliseconds : 0.0;
+  }
+  return sum;
+}
+
+void addCosts(PaperTable& table, BenchStage& stage, const BenchChoice& choice) {
+  const Values eight = {{"sets", "8"}, {"apart", "off"}};
+  Values one_ray = eight, classical = eight;
+  one_ray.insert(one_ray.end(), {{"direct", "1"}, {"indirect", "0"}});
+  classical.emplace_back("mode", "irradiance");
+  std::vector<double> filter, ray, over, gathered;
+  for (int round = -1; round < choice.frames; ++round) {  // one to warm up
+    if (interrupted()) throw Interrupted("interrupted: no figures");
+    const auto draw = [&](const Values& values) {
+      return stage.renderer.render(stage.posed, stage.camera, with(stage, values));
+    };
+    const RenderedFrame ours = draw(eight), single = draw(one_ray), theirs = draw(classical);
+    if (round < 0) continue;
+    filter.push_back(timeOf(ours, {"weights", "filter", "shade"}));
+    ray.push_back(timeOf(single, {"visibility"}));
+    over.push_back(filter.back() / std::max(1e-9, ray.back()));
+    gathered.push_back((timeOf(ours, {"gather"}) - timeOf(theirs, {"gather"}) + filter.back() -
+                        timeOf(theirs, {"weights", "filter", "shade"})) /
+                       std::max(1e-9, ray.back()));
+  }
+  const auto add = [&](const char* name, double ours, std::optional<double> paper, const char* unit,
+                       Better better) {
+    table.rows.push_back({name, ours, paper, unit, better});
+  };
+  add("filter and shading at 8x8", quantile(filter, 0.5), std::nullopt, "ms", Better::kLower);
+  add("one shadow ray a pixel", quantile(ray, 0.5), std::nullopt, "ms", Better::kNone);
+  add("filter and shading over one shadow ray a pixel", quantile(over, 0.5), 1.0, "ratio", Better::kLower);
+  add("what three bands take more than irradiance, over one shadow ray a pixel", quantile(gathered, 0.5), 1.0,
+      "ratio", Better::kLower);
+  add("bytes a pixel", kGBufferBytes + kFieldBytes, std::nullopt, "bytes", Better::kLower);
+  add("bytes a pixel over those of the classical filter",
+      (kGBufferBytes + kFieldBytes) / (kGBufferBytes + kIrradianceBytes), 3.0, "ratio", Better::kLower);
+}
+
+}  // namespace
+
+PaperTable measureRadianceFilterPaper(const BenchChoice& choice, Console& console) {
+  BenchStage stage = prepareBench(choice, console);
+  console.release();
+  const Image truth = reference(stage, choice, console);
+  PaperTable table;
+  table.device = stage.renderer.device().name;
+  table.plot = {.title = "PSNR against the path tracer by how many sets a side are interleaved",
+                .across = "sets a side",
+                .up = "PSNR, dB",
+                .places = {std::begin(kSides), std::end(kSides)},
+                .curves = {},
+                .notes = {"gloam bench radiance_filter --paper -o FILE.svg"}};
+  for (const char* mode : kModes) table.plot.curves.push_back({mode, {}});
+  const Progress progress = console.progress();
+  for (const int side : kSides) {
+    progress.report(double(side * side) / 340.0, fmt::format("{} x {} sets", side, side));
+    addErrors(table, stage, truth, side);
+  }
+  console.endProgress();
+  addCosts(table, stage, choice);
+  const Settings& settings = stage.options.settings;
+  table.notes = {
+      fmt::format(
+          "{} at {}x{}, {} + {} virtual lights a set, {} rounds of times, a path tracer of {} samples.",
+          choice.scene.name, choice.view.size.x, choice.view.size.y, settings.integer("direct"),
+          settings.integer("indirect"), choice.frames, kReferenceSamples),
+      "The paper prints pictures (Figures 2 and 4); of costs it says what it expects: less than one shadow "
+      "ray, two to "
+      "three times the bytes."};
+  return table;
+}
+
+}  // namespace gloam::cli
