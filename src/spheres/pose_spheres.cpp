@@ -152,7 +152,7 @@ void checkSet(const SphereSet& set, const Scene& scene) {
     if (n < 0 || std::size_t(n) >= scene.nodes.size() || scene.nodes[std::size_t(n)].meshes != set.meshes)
       refuse();
   }
-  if (!set.deforms) return;
+  if (!set.deforms || set.spheres.empty()) return;  // what only receives has nothing that follows it
   if (set.first_anchor.size() != set.spheres.size() + 1 || set.first_anchor.back() != set.anchors.size())
     refuse();
   for (const SphereAnchor& anchor : set.anchors) {

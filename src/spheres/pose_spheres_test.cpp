@@ -147,6 +147,20 @@ TEST(PoseSpheres, MorphsAreFollowedWithoutAJump) {
   }
 }
 
+// A skinned or morphed sheet: neither spheres nor anchors, fresh from the search as read from a file.
+TEST(PoseSpheres, WhatDeformsAndOnlyReceivesIsPosed) {
+  const std::vector<float> cells = shapes::steps(4);
+  Scene scene = sceneOf(shapes::patch({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, cells, cells));
+  MorphTarget target;
+  for (const glm::vec3& p : scene.meshes[0].positions) target.positions.push_back(glm::vec3(0, p.x * p.x, 0));
+  scene.meshes[0].morph_targets = {target};
+  scene.nodes[0].morph_weights = {0.5f};
+  const SceneSpheres spheres = bakeSpheres(scene, quick(4));
+  ASSERT_TRUE(spheres.sets[0].deforms);
+  ASSERT_FALSE(spheres.sets[0].receive_only.empty());
+  EXPECT_TRUE(poseSpheres(spheres, scene, pose(scene, 0.0f)).empty());
+}
+
 TEST(PoseSpheres, TheWalkerStaysCovered) {
   const Scene scene = loadScene("builtin:walker?detail=0.25");
   const SceneSpheres spheres = bakeSpheres(scene, quick(22, 0.02f));
