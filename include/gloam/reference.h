@@ -11,8 +11,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace gloam {
+
+/// Raised when the same options give other samples: pictures of another revision, and its checkpoints, are told apart.
+inline constexpr int kReferenceRevision = 2;
 
 struct ReferenceOptions {
   int width = 512, height = 512;  ///< 1 to 16384
@@ -96,5 +100,10 @@ Coverage coverageOf(const LayeredImage& reference, const std::string& place);
 /// That light alone out of a reference file: layers "" (R G B A), "direct", "indirect" and the geometric ones. Throws
 /// Error(place, …) that names what is missing: a file without parts can only give all that it holds.
 LayeredImage imageOf(const LayeredImage& reference, const Coverage& part, const std::string& place);
+/// What chance leaves in that light: the mean square of its error, R, G, B alike, over all pixels; an upper estimate, as
+/// PathTracer::noise() is. Nothing where the file does not tell (without parts, or below two samples of each position).
+/// Throws Error where what it tells is damaged.
+std::optional<double> varianceOf(const LayeredImage& reference, const Coverage& part,
+                                 const std::string& place);
 
 }  // namespace gloam

@@ -19,7 +19,7 @@ namespace reference {
 
 namespace {
 
-constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 2, "a reference picture"};
+constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 3, "a reference picture"};
 
 void checkRange(const char* name, int value, int low, int high) {
   if (value < low || value > high) {
@@ -60,7 +60,7 @@ PathSums makePathSums(const ReferenceOptions& options, const Integrator& integra
       sums.paths.push_back(LightPath(p));
   }
   const std::size_t pixels = sums.pixelCount();
-  const std::size_t numbers = 3 * (sums.paths.size() + (sums.positions > 1 ? 3 : 2)) + 2;
+  const std::size_t numbers = 3 * (2 * sums.paths.size() + (sums.positions > 1 ? 3 : 2)) + 2;
   // Besides the sums: layers of geometry, and the picture when it is asked for.
   const double needed = double(pixels) * (8.0 * double(numbers) + 36.0 + 60.0);
   const double there = double(memoryOfMachine());
@@ -75,6 +75,8 @@ PathSums makePathSums(const ReferenceOptions& options, const Integrator& integra
   if (sums.positions > 1) sums.round.resize(pixels * 3);
   sums.half.resize(pixels * 3);
   sums.errors.resize(pixels * 2);
+  sums.part_halves.resize(sums.sums.size());
+  sums.part_errors.resize(sums.sums.size());
   return sums;
 }
 
@@ -108,6 +110,12 @@ void measureError(PathSums& sums, std::size_t pixel, std::uint32_t samples) {
     sums.errors[2 * pixel + 1] = independent.x + independent.y + independent.z;
   }
   for (int c = 0; c < 3; ++c) half[c] = light[c];
+  const std::size_t parts = 3 * sums.paths.size(), first = pixel * parts;
+  for (std::size_t i = first; i < first + parts; ++i) {
+    const double error = (2.0 * double(sums.part_halves[i]) - sums.sums[i]) / double(samples);
+    sums.part_errors[i] = samples > std::uint32_t(sums.positions) ? float(error) : 0.0f;
+    sums.part_halves[i] = float(sums.sums[i]);
+  }
 }
 
 double evenness(const PathSums& sums) {
@@ -119,12 +127,45 @@ double evenness(const PathSums& sums) {
   return independent > 0.0 ? happened / independent : 1.0;
 }
 
+namespace {
+
+std::uint32_t samplesOf(const PathSums& sums, std::size_t pixel) {
+  return sums
+      .samples[sums.tileOf(int(pixel % std::size_t(sums.width)), int(pixel / std::size_t(sums.width)))];
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> partCovariances(const PathSums& sums) {
+  const std::size_t paths = sums.paths.size(), pixels = sums.pixelCount();
+  std::vector<std::vector<double>> products(paths, std::vector<double>(paths, 0.0));
+  double then = 0.0,
+         now = 0.0;  // variances of independent samples: since the errors happened, more have come
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    const glm::dvec3 independent = independentVariance(sums, pixel, samplesOf(sums, pixel));
+    now += independent.x + independent.y + independent.z;
+    then += sums.errors[2 * pixel + 1];
+    const float* errors = sums.part_errors.data() + pixel * paths * 3;
+    for (std::size_t a = 0; a < paths; ++a) {
+      for (std::size_t b = 0; b < paths; ++b) {
+        for (std::size_t c = 0; c < 3; ++c)
+          products[a][b] += double(errors[3 * a + c]) * double(errors[3 * b + c]);
+      }
+    }
+  }
+  if (std::isinf(now)) return {};
+  const double scale = (then > 0.0 ? now / then : 1.0) / (3.0 * double(pixels));
+  for (std::vector<double>& row : products) {
+    for (double& value : row) value *= scale;
+  }
+  return products;
+}
+
 double noiseOf(const PathSums& sums) {
   const std::size_t paths = sums.paths.size();
   double variance = 0.0, light = 0.0;
   for (std::size_t pixel = 0; pixel < sums.pixelCount(); ++pixel) {
-    const std::uint32_t samples =
-        sums.samples[sums.tileOf(int(pixel % std::size_t(sums.width)), int(pixel / std::size_t(sums.width)))];
+    const std::uint32_t samples = samplesOf(sums, pixel);
     const glm::dvec3 of_pixel = independentVariance(sums, pixel, samples);
     variance += of_pixel.x + of_pixel.y + of_pixel.z;
     double sum = 0.0;
@@ -141,8 +182,8 @@ Fingerprint fingerprintOf(const Scene& scene, const PosedScene& posed, const Pos
   Fingerprint print;
   const auto& [width, height, supersample, light, bounces, environment_order, background, seed, threads] =
       options;
-  addAll(print, std::string(GLOAM_VERSION), scene, posed, camera, environment, width, height, supersample,
-         coverageText(light), bounces, environment_order, background, seed);
+  addAll(print, std::string(GLOAM_VERSION), kReferenceRevision, scene, posed, camera, environment, width,
+         height, supersample, coverageText(light), bounces, environment_order, background, seed);
   return print;
 }
 

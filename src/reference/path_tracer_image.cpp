@@ -58,6 +58,8 @@ std::map<std::string, std::string> attributesOf(const TracerState& state, const 
   }
   return {{"gloam.kind", "reference"},
           {"gloam.version", GLOAM_VERSION},
+          {"gloam.revision", std::to_string(kReferenceRevision)},
+          {"gloam.size", fmt::format("{}x{}", state.sums.width, state.sums.height)},
           {"gloam.light", coverageText(part)},
           {"gloam.sources", sources.empty() ? "none" : sources},
           {"gloam.bounces", std::to_string(options.bounces)},
@@ -69,6 +71,17 @@ std::map<std::string, std::string> attributesOf(const TracerState& state, const 
           {"gloam.scene", state.scene},
           {"gloam.environment_light", state.environment_light},
           {"gloam.camera", state.camera}};
+}
+
+/// A row a path: its name, its covariances with those before it, its variance.
+std::string varianceText(const PathSums& sums) {
+  const std::vector<std::vector<double>> covariances = partCovariances(sums);
+  std::string text;
+  for (std::size_t a = 0; a < covariances.size(); ++a) {
+    text += (a == 0 ? "" : " ") + std::string(nameOf(sums.paths[a]));
+    for (std::size_t b = 0; b <= a; ++b) text += fmt::format(" {:.6g}", covariances[a][b]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -101,6 +114,8 @@ LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool vari
   }
   result.attributes = attributesOf(state, part);
   if (variance) result.attributes["gloam.noise"] = fmt::format("{:.6g}", noiseOf(sums));
+  if (const std::string text = varianceText(sums); variance && parts && !text.empty())
+    result.attributes[kPartVariance] = text;
   return result;
 }
 

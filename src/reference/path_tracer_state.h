@@ -37,6 +37,9 @@ struct PathSums {
   std::vector<double> half;   ///< [pixel][rgb]: of all light, when rounds were last a power of two
   /// [pixel]: then, the squared error as it happened, and the variance of independent samples; R, G, B together.
   std::vector<double> errors;
+  /// [pixel][path][rgb]: sums when rounds were last a power of two, and the errors of their means as they happened then:
+  /// what is the noise of any part of the light follows from them. Single precision is enough for errors.
+  std::vector<float> part_halves, part_errors;
 
   int tilesAcross() const { return (width + kTileSize - 1) / kTileSize; }
   std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
@@ -51,6 +54,9 @@ struct PathSums {
     visit(samples.data(), samples.size() * sizeof(samples[0]));
     for (auto* values : {&sums, &squares, &round, &half, &errors}) {
       if (!values->empty()) visit(values->data(), values->size() * sizeof(double));
+    }
+    for (auto* values : {&part_halves, &part_errors}) {
+      if (!values->empty()) visit(values->data(), values->size() * sizeof(float));
     }
   }
 };
@@ -69,6 +75,10 @@ void measureError(PathSums& sums, std::size_t pixel, std::uint32_t samples);
 
 /// PathTracer::noise().
 double noiseOf(const PathSums& sums);
+/// Covariance of the errors of two paths' means, a value of a pixel (R, G, B alike), on average over the picture, for all
+/// pairs of PathSums::paths: [row][column]. All of them together are the square of noiseOf() times the mean of all light.
+/// Empty below two rounds.
+std::vector<std::vector<double>> partCovariances(const PathSums& sums);
 
 struct TracerState {
   ReferenceOptions options;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "scene/coverage.h"
@@ -135,7 +136,33 @@ LayeredImage imageOf(const LayeredImage& file, const Coverage& part, const std::
   result.attributes[kLight] = coverageText(part);
   result.attributes[kSources] = coverageText(both(part, there));
   result.attributes.erase("gloam.noise");
+  result.attributes.erase(kPartVariance);
   return result;
+}
+
+std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part, const std::string& place) {
+  const std::string* text = attribute(file, kPartVariance);
+  if (!text) return std::nullopt;
+  const auto damaged = [&](const std::string& what) {
+    return Error(place, fmt::format("attribute {}: {}", kPartVariance, what));
+  };
+  std::istringstream words(*text);
+  std::vector<bool> taken;  // of the paths so far
+  double variance = 0.0;
+  for (std::string name; words >> name;) {
+    int path = 0;
+    while (path < kLightPathCount && name != nameOf(LightPath(path))) ++path;
+    if (path == kLightPathCount) throw damaged(fmt::format("'{}' is no kind of light", name));
+    if (taken.size() == kLightPathCount) throw damaged("more than all kinds of light");
+    taken.push_back(covers(part, LightPath(path)));
+    for (std::size_t other = 0; other < taken.size(); ++other) {
+      double value = 0.0;
+      if (!(words >> value) || !std::isfinite(value))
+        throw damaged(fmt::format("a number is missing after {}", name));
+      if (taken[other] && taken.back()) variance += (other + 1 < taken.size() ? 2.0 : 1.0) * value;
+    }
+  }
+  return std::max(variance, 0.0);
 }
 
 }  // namespace gloam

@@ -12,6 +12,8 @@
 namespace gloam::reference {
 
 inline constexpr int kMaxBounces = 1000;
+/// Attribute: variances and covariances of parts, which varianceOf() reads.
+inline constexpr const char* kPartVariance = "gloam.part_variance";
 
 /// "environment_direct", …, "seen": layers, and words of the attributes gloam.light and gloam.sources.
 const char* nameOf(LightPath path);

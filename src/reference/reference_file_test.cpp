@@ -129,6 +129,53 @@ TEST(ReferenceFile, AFileWithoutPartsGivesWhatNeedsNone) {
   EXPECT_NE(error.find("--parts"), std::string::npos) << error;
 }
 
+// Many pictures' spread against what each says of itself, part by part; halves of samples are less even than all of them.
+TEST(ReferenceFile, SaysWhatTheNoiseOfAPartIs) {
+  Lit lit;
+  constexpr int kPictures = 40;
+  std::vector<double> claimed(kParts.size(), 0.0), spread(kParts.size(), 0.0);
+  std::vector<std::vector<double>> sums(kParts.size()), squares(kParts.size());
+  for (int picture = 0; picture < kPictures; ++picture) {
+    lit.options.seed = std::uint64_t(picture);
+    const LayeredImage file =
+        lit.render(kAllLight, true, 24);  // half as many again since halves were compared
+    for (std::size_t k = 0; k < kParts.size(); ++k) {
+      claimed[k] += *varianceOf(file, kParts[k], "") / kPictures;
+      const Image light = imageOf(file, kParts[k], "").image("", {"R", "G", "B"}, "");
+      sums[k].resize(light.pixels.size()), squares[k].resize(light.pixels.size());
+      for (std::size_t i = 0; i < light.pixels.size(); ++i) {
+        sums[k][i] += double(light.pixels[i]);
+        squares[k][i] += double(light.pixels[i]) * double(light.pixels[i]);
+      }
+    }
+    if (picture > 0) continue;
+    const double noise = std::stod(file.attributes.at("gloam.noise"));
+    EXPECT_NEAR(std::sqrt(*varianceOf(file, kAllLight, "")), noise * meanOf(file, ""), 1e-3 * noise);
+  }
+  for (std::size_t k = 0; k < kParts.size(); ++k) {
+    for (std::size_t i = 0; i < sums[k].size(); ++i) {
+      const double mean = sums[k][i] / kPictures;
+      spread[k] += std::max(squares[k][i] / kPictures - mean * mean, 0.0) * kPictures / (kPictures - 1);
+    }
+    spread[k] /= double(sums[k].size());
+    EXPECT_LT(spread[k], 1.2 * claimed[k] + 1e-8) << k;
+    EXPECT_GT(spread[k], 0.35 * claimed[k] - 1e-8) << k;
+  }
+}
+
+TEST(ReferenceFile, NoiseOfAPartIsNotGuessed) {
+  Lit lit;
+  EXPECT_FALSE(varianceOf(lit.render(kAllLight, false, 4), kAllLight, "").has_value());
+  EXPECT_FALSE(varianceOf(lit.render(kAllLight, true, 1), kAllLight, "").has_value());
+  LayeredImage file = lit.render(kAllLight, true, 4);
+  for (const char* damaged : {"environment_direct", "environment_direct x", "moonlight 1", "seen 1 seen 1",
+                              "seen nan", "environment_direct 1 seen 0"}) {
+    file.attributes["gloam.part_variance"] = damaged;
+    const std::string error = errorOf([&] { varianceOf(file, kAllLight, "a.exr"); });
+    EXPECT_NE(error.find("a.exr: attribute gloam.part_variance"), std::string::npos) << damaged << error;
+  }
+}
+
 TEST(ReferenceFile, SurvivesTheDisk) {
   Lit lit;
   const LayeredImage file = lit.render(kAllLight, true, 4);
