@@ -83,6 +83,7 @@ void printResult(const BakeChoice& choice, const BakeReport& report, const Tesse
                 {"points", report.vertices},
                 {"rays", report.rays},
                 {"bounce_rays", report.bounce_rays},
+                {"bounce_directions", report.bounce_directions},
                 {"first_pass_s", report.first_pass_s},
                 {"bounces_s", report.bounces_s},
                 {"rays_per_s", rate},
@@ -211,7 +212,8 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
   choice.directions_option =
       add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
   choice.bounce_directions_option =
-      add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass");
+      add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass")
+          ->default_str("1024, in rooms 512");
   app.add_flag(
          "--apart", options.apart,
          "each root node is an object of its own, which shadows itself alone: objects may move against one "

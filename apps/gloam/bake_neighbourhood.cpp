@@ -76,7 +76,8 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
   bake.apart = true;
   choice.options.order = bake.order;
   choice.options.directions = bake.directions;
-  choice.options.thrown_directions = std::min(bake.bounce_directions, bake.directions);
+  choice.options.thrown_directions =
+      std::min(bake.bounce_directions > 0 ? bake.bounce_directions : 1024, bake.directions);
   choice.options.thrown = bake.kind != TransferKind::kUnshadowed;
   choice.options.threads = bake.threads;
   choice.options.time_s = bake.time_s;

@@ -233,6 +233,7 @@ static Scene bakeOne(const Scene& scene, const BakeOptions& options, const Progr
   state.glossy = makeGlossyState(unique, posed, points, options);
   done.vertices = points.size();
   done.texels = points.on_faces.size();
+  done.bounce_directions = state.bounces > 0 ? tables.bounce_tiles * kTileSize : 0;
   withThreads(options.threads, [&] {
     if (options.kind == TransferKind::kUnshadowed) {
       bakeUnshadowed(points, options, state);
@@ -250,9 +251,10 @@ static Scene bakeOne(const Scene& scene, const BakeOptions& options, const Progr
   return unique;
 }
 
-Scene bakeTransfer(const Scene& scene, const BakeOptions& options, const Progress& progress,
+Scene bakeTransfer(const Scene& scene, const BakeOptions& given, const Progress& progress,
                    BakeReport* report) {
-  checkOptions(options);
+  checkOptions(given);
+  const BakeOptions options = withBounceDirections(scene, given);
   if (options.memory_bytes > 0) keptHitsBytes(leastMemory(scene, options), options);
   BakeReport local;
   BakeReport& done = report ? *report : local;

@@ -131,7 +131,8 @@ PrtBakeBench measure(const BakePoints& points, const trace::Tracer& tracer, cons
 
 }  // namespace
 
-PrtBakeBench benchBake(const Scene& scene, const BakeOptions& options, int rounds) {
+PrtBakeBench benchBake(const Scene& scene, const BakeOptions& given, int rounds) {
+  const BakeOptions options = withBounceDirections(scene, given);
   const PosedScene posed = pose(scene, options.time_s);
   const BakePoints points = makeBakePoints(scene, posed);
   if (points.size() == 0) throw Error("bench bake", "the scene has no rigid triangles to bake");
@@ -140,7 +141,7 @@ PrtBakeBench benchBake(const Scene& scene, const BakeOptions& options, int round
   const int cores =
       options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, std::size_t(cores));
-  PrtBakeBench bench;
+  PrtBakeBench bench{.bounce_directions = tables.bounce_tiles * kTileSize};
   tbb::task_arena(cores).execute([&] {
     const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true});
     BakeState state =
@@ -154,7 +155,9 @@ PrtBakeBench benchBake(const Scene& scene, const BakeOptions& options, int round
     BakePasses passes(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
     settings.kept_bytes = 0;
     BakePasses forgetful(scene, posed, points, tracer, tables, settings, glossy ? &*glossy : nullptr);
+    const int bounce_directions = bench.bounce_directions;
     bench = measure(points, tracer, tables, passes, forgetful, state, std::max(1, rounds));
+    bench.bounce_directions = bounce_directions;
   });
   return bench;
 }

@@ -20,6 +20,7 @@ struct PrtBakeBench {
   /// Median time of a bounce over that of the first pass of the same round: one that traces its rays, one that finds its
   /// hits kept. 0 without bounces.
   double first_bounce = 0.0, later_bounce = 0.0;
+  int bounce_directions = 0;
 };
 
 /// Measures both in turn on all cores (options.threads), in `rounds` pairs of about a quarter of a second each half, so that

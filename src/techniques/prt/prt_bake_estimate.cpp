@@ -253,8 +253,9 @@ std::size_t leastMemory(const Scene& scene, const BakeOptions& options) {
 
 using namespace prt;
 
-BakeEstimate estimateBake(const Scene& scene, const BakeOptions& options, const BakeFileForm& form) {
-  checkOptions(options);
+BakeEstimate estimateBake(const Scene& scene, const BakeOptions& given, const BakeFileForm& form) {
+  checkOptions(given);
+  const BakeOptions options = withBounceDirections(scene, given);
   const BakeSizes sizes = countSizes(scene, options);
   BakeEstimate estimate{.vertices = sizes.vertices,
                         .triangles = sizes.triangles,

@@ -142,23 +142,14 @@ void BakePasses::gatherPoint(std::size_t point, const KeptHits& hits, std::size_
   addSkies(hits.skiesOf(i), state.pass, tables_.order, rowStride(state.coefficients), row);
 }
 
-// The same hits in the same order, whether the bounce is the first or a later one.
-void BakePasses::addBatch(std::size_t point, const BakeState& state, const DirectionBatch& batch,
-                          PointWork& of_batch, PointWork& all) const {
-  of_batch.clear();
-  collectHits(point, state, batch.first_bounce, batch.end_bounce, of_batch);
-  all.hits.insert(all.hits.end(), of_batch.hits.begin(), of_batch.hits.end());
-  all.skies.insert(all.skies.end(), of_batch.skies.begin(), of_batch.skies.end());
-  all.sums.cosine += of_batch.sums.cosine;
-  all.sums.rays += of_batch.sums.rays;
-  all.sums.followed += of_batch.sums.followed;
-  all.sums.asked += of_batch.sums.asked;
-}
-
+// The same hits in the same order as the first bounce.
 void BakePasses::bounceAgain(std::size_t point, const BakeState& state, PointWork& work) const {
   PointWork of_batch;
   for (const DirectionBatch& batch : tables_.batches) {
-    if (batch.end_bounce <= state.bounce_used[point]) addBatch(point, state, batch, of_batch, work);
+    if (batch.end_bounce > state.bounce_used[point]) break;
+    of_batch.clear();
+    collectHits(point, state, batch.first_bounce, batch.end_bounce, of_batch);
+    work.add(of_batch);
   }
 }
 
@@ -174,7 +165,9 @@ void BakePasses::bounceUntilKnown(std::size_t point, BakeState& state, PointWork
   float error = 0.0f;
   std::size_t used = 0;
   for (const DirectionBatch& batch : tables_.batches) {
-    addBatch(point, state, batch, of_batch, work);
+    of_batch.clear();
+    collectHits(point, state, batch.first_bounce, batch.end_bounce, of_batch);
+    work.add(of_batch);
     batch_hits = {};
     packHits(of_batch.hits, batch_hits.hits, batch_hits.points[0]);
     std::ranges::fill(here, 0.0f);

@@ -100,8 +100,11 @@ class BakePasses {
   GatherSources sourcesOf(const BakeState& state) const;
   GatherSources sourcesOfAll(const BakeState& state) const;
 
+  /// What one point's blocked directions met, before it is packed.
+  template <class OneHit>
+  struct HitWork;
   // prt_bake_hits.cpp
-  struct PointWork;
+  using PointWork = HitWork<RawHit>;
   struct KeptHits;
   void collectHits(std::size_t point, const BakeState& state, std::size_t first, std::size_t end,
                    PointWork& work) const;
@@ -110,8 +113,6 @@ class BakePasses {
   void packPoint(std::size_t point, const BakeState& state, std::size_t tiles, PointWork& work,
                  KeptHits& hits, std::size_t i) const;
   void gatherPoint(std::size_t point, const KeptHits& hits, std::size_t i, BakeState& state) const;
-  void addBatch(std::size_t point, const BakeState& state, const DirectionBatch& batch, PointWork& of_batch,
-                PointWork& all) const;
   void bounceUntilKnown(std::size_t point, BakeState& state, PointWork& work) const;
   void bounceAgain(std::size_t point, const BakeState& state, PointWork& work) const;
 
@@ -150,7 +151,7 @@ class BakePasses {
   void sumGlossy(std::span<const GlossyHit> hits, std::span<const SkyHit> skies, const GatherSources& sources,
                  int sky_pass, const GlossyState& glossy, float* vector, float* matrix) const;
   // prt_glossy_hits.cpp
-  struct GlossyWork;
+  using GlossyWork = HitWork<GlossyHit>;
   void collectGlossy(std::size_t point, const BakeState& state, std::size_t first, std::size_t end,
                      GlossyWork& work) const;
   void collectGlossyOf(std::size_t point, BakeState& state, GlossyWork& work) const;
@@ -208,9 +209,9 @@ class BakePasses {
   std::atomic<std::size_t> kept_bytes_{0};
 };
 
-/// What one point's blocked directions met, before it is packed.
-struct BakePasses::PointWork {
-  std::vector<RawHit> hits;
+template <class OneHit>
+struct BakePasses::HitWork {
+  std::vector<OneHit> hits;
   std::vector<SkyHit> skies;
   std::vector<MirrorRay> onward;
   BounceSums sums;
@@ -218,6 +219,14 @@ struct BakePasses::PointWork {
     hits.clear();
     skies.clear();
     sums = {};
+  }
+  void add(const HitWork& other) {
+    hits.insert(hits.end(), other.hits.begin(), other.hits.end());
+    skies.insert(skies.end(), other.skies.begin(), other.skies.end());
+    sums.cosine += other.sums.cosine;
+    sums.rays += other.sums.rays;
+    sums.followed += other.sums.followed;
+    sums.asked += other.sums.asked;
   }
 };
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "math/sampling.h"
 #include "techniques/prt/prt_bake_passes.h"
+#include "techniques/prt/prt_bake_points.h"
 
 namespace gloam {
 namespace prt {
@@ -53,7 +55,36 @@ void checkOptions(const BakeOptions& options) {
     checkRange("directions with error", options.directions, kLeastDirectionsOfError, 65536);
   if (options.kind != TransferKind::kInterreflected) return;
   checkRange("bounces", options.bounces, 1, 64);
-  checkRange("bounce_directions", options.bounce_directions, 64, 65536);
+  if (options.bounce_directions != 0) checkRange("bounce_directions", options.bounce_directions, 64, 65536);
+}
+
+// Some rays from some points: in the open about half of the directions above a floor meet anything, in rooms nearly all.
+BakeOptions withBounceDirections(const Scene& scene, BakeOptions options) {
+  constexpr int kOpen = 1024, kRoom = 512, kRays = 64;
+  constexpr std::size_t kPoints = 256, kMostTriangles = 4000000;
+  constexpr double kRoomShare = 0.8;
+  if (options.bounce_directions != 0) return options;
+  options.bounce_directions = kOpen;
+  if (bouncesOf(options) == 0 || options.apart || options.error > 0.0f) return options;
+  const PosedScene posed = pose(scene, options.time_s);
+  const std::vector<std::uint8_t> glossy = glossyInstances(scene, posed, options.glossy);
+  if (std::ranges::find(glossy, 1) != glossy.end()) return options;
+  const BakePoints points = makeBakePoints(scene, posed);
+  if (points.size() == 0 || points.triangles.size() > kMostTriangles) return options;
+  const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true});
+  const std::vector<glm::vec3> directions = sampling::fibonacciSphere(kRays);
+  const std::size_t count = std::min(kPoints, points.size());
+  std::size_t above = 0, blocked = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t point = k * points.size() / count;
+    for (const glm::vec3& direction : directions) {
+      if (!(glm::dot(direction, points.normals[point]) > 0.0f)) continue;
+      ++above;
+      blocked += tracer.occluded({.origin = rayOrigin(points, point), .direction = direction}) ? 1 : 0;
+    }
+  }
+  if (double(blocked) > kRoomShare * double(above)) options.bounce_directions = kRoom;
+  return options;
 }
 
 int bouncesOf(const BakeOptions& options) {

@@ -13,6 +13,9 @@ namespace gloam::prt {
 /// Throws Error for options out of range.
 void checkOptions(const BakeOptions& options);
 
+/// Options with `bounce_directions` chosen where it is 0.
+BakeOptions withBounceDirections(const Scene& scene, BakeOptions options);
+
 /// Interreflection passes.
 int bouncesOf(const BakeOptions& options);
 DirectionTables tablesFor(const BakeOptions& options);

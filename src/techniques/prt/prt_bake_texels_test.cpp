@@ -212,11 +212,11 @@ TEST(PrtBakeTexels, TexelsSendOnWhatTwoTrianglesDoNotHold) {
     for (const float side : {-1.0f, 1.0f})
       addMesh(scene, quadMesh({side * 20.3f, 0.5f, 0}, {20, 0, 0}, {0, 0, 40}));
     const BakeOptions options = interreflected(1, 3, 4096, 4096);
-    const Scene baked = bakeTransfer(scene, texels ? ofTexels(options, 64) : options);
+    const Scene baked = bakeTransfer(scene, texels ? ofTexels(options, 48) : options);
     return baked.meshes[1].transfer->indirect[1];
   };
   const Mesh two = mapped(quadMesh({0, 0, 0}, {0, 0, 3}, {3, 0, 0}));
-  const float many = sentUp(gridMesh(3.0f, 64), false);
+  const float many = sentUp(gridMesh(3.0f, 48), false);
   EXPECT_NEAR(sentUp(two, true), many, 0.03f * many);
   EXPECT_GT(std::abs(sentUp(two, false) - many), 0.5f * many);
 }

@@ -162,7 +162,7 @@ TEST(PrtGlossyBake, ConcaveWhiteBodyGrowsToOneWithBounces) {
   scene.materials[0] = metal(glm::vec3(1.0f), 4.0f);
   float before = 0.0f;
   for (const int bounces : {1, 3, 12}) {
-    const Scene baked = bakeTransfer(scene, glossy(interreflected(bounces, 5, 2048, 1024)));
+    const Scene baked = bakeTransfer(scene, glossy(interreflected(bounces, 5, 1024, 512)));
     const glm::vec2 seen = furnace(baked.meshes[0].transfer->glossy, 0, baked.meshes[0].normals[0], 4.0f);
     EXPECT_LT(seen.x, 0.5f);
     EXPECT_GT(seen.y, before + 0.02f) << bounces;

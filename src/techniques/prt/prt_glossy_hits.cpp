@@ -36,26 +36,6 @@ float greatestDifference(const float weights[2], const float* first, const float
 
 }  // namespace
 
-struct BakePasses::GlossyWork {
-  std::vector<GlossyHit> hits;
-  std::vector<SkyHit> skies;
-  std::vector<MirrorRay> onward;
-  BounceSums sums;
-  void clear() {
-    hits.clear();
-    skies.clear();
-    sums = {};
-  }
-  void add(const GlossyWork& other) {
-    hits.insert(hits.end(), other.hits.begin(), other.hits.end());
-    skies.insert(skies.end(), other.skies.begin(), other.skies.end());
-    sums.cosine += other.sums.cosine;
-    sums.rays += other.sums.rays;
-    sums.followed += other.sums.followed;
-    sums.asked += other.sums.asked;
-  }
-};
-
 GlossyHit BakePasses::glossyHit(const MirrorRay& came, const Meeting& at, const glm::vec3& diffuse) const {
   const auto& [sender, share] = sendersAt(at.instance, at.triangle, at.u, at.v);
   return {.point = {sender.x, sender.y, sender.z},
