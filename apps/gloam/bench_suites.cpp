@@ -84,7 +84,8 @@ int benchBaking(const BenchChoice& choice, Console& console) {
     console.print(fmt::format("Embree alone    {:8.2f} Mrays/s", result.bare_mrays_s));
     console.print(fmt::format("first pass      {:8.2f} Mrays/s", result.bake_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", result.ratio));
-    console.print(fmt::format("first bounce    {:8.3f} of the first pass's time", result.first_bounce));
+    console.print(fmt::format("first bounce    {:8.3f} of the first pass's time, {} directions",
+                              result.first_bounce, countText(std::size_t(result.bounce_directions))));
     console.print(fmt::format("later bounces   {:8.3f} of it, each", result.later_bounce));
     console.print(fmt::format("with matrices   {:8.2f} Mrays/s", glossy.bake_mrays_s));
     console.print(fmt::format("ratio           {:8.3f}", glossy.ratio));
@@ -99,6 +100,7 @@ int benchBaking(const BenchChoice& choice, Console& console) {
                           {"bare_mrays_s", result.bare_mrays_s},
                           {"bake_mrays_s", result.bake_mrays_s},
                           {"ratio", result.ratio},
+                          {"bounce_directions", result.bounce_directions},
                           {"first_bounce", result.first_bounce},
                           {"later_bounce", result.later_bounce},
                           {"glossy_bake_mrays_s", glossy.bake_mrays_s},
