@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "shaders/splatting_shaders.h"
+#include "techniques/splatting/splatting_gloss.h"
+#include "techniques/splatting/splatting_lamps.h"
 #include "techniques/splatting/splatting_levels.h"
 
 namespace gloam::splatting {
@@ -78,8 +80,8 @@ const std::vector<Option>& options() {
        .help = "what merging virtual lights may change of a texel's light, as estimated, in parts of it; 0: "
                "none are merged"},
       {.name = "normals",
-       .default_value = std::string("geometric"),
-       .choices = {"geometric", "shading"},
+       .default_value = std::string("shading"),
+       .choices = {"shading", "geometric"},
        .help = "normals whose differences split texels"},
       {.name = "coarsest",
        .default_value = 16,
@@ -103,6 +105,9 @@ const std::vector<Option>& options() {
        .maximum = 1.0,
        .help =
            "darkening of what is turned away from the eye, which stands for detail that coarse texels lose"},
+      {.name = "gloss",
+       .default_value = false,
+       .help = "virtual lights in gloss, too: at every pixel that has some, from every light, seen or not"},
       {.name = "debug",
        .default_value = false,
        .help = "keeps images to look at with --show: splatting.least_K, splatting.greatest_K, "
@@ -188,6 +193,7 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                   : "no indirect light: no virtual lights were asked for (splatting.vpls)");
     return lighting;
   }
+  tellLamps(inputs);
   const int bound = boundKind(settings.choice("bound"));
   const Plan plan = planLevels(inputs.gbuffer.width, inputs.gbuffer.height, settings.integer("coarsest"),
                                settings.integer("resolution"));
@@ -223,6 +229,9 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
       recordPixels(graph, inputs, levels[0], subsplats, detail, irradiance);
   }
   lighting.irradiance.push_back({.image = irradiance, .path = frame::Path::kIndirect});
+  if (settings.flag("gloss"))
+    lighting.gloss.push_back(
+        {.image = recordGloss(graph, inputs, vpls, bound), .path = frame::Path::kIndirect});
   return lighting;
 }
 

@@ -70,9 +70,8 @@ struct ArgumentsPush {
 /// For the first gathering of one level.
 struct CoarsePush {
   int level;
-  float light_threshold;  // of a texel's size over the mean distance of its light; 0: not asked
-  float
-      cluster_threshold;  // of what merging lights may change of their sum; 0: all ask for the next set
+  float light_threshold;    // of a texel's size over the mean distance of its light; 0: not asked
+  float cluster_threshold;  // of what merging lights may change of their sum; 0: all ask for the next set
 };
 
 GLOAM_SHARED_END

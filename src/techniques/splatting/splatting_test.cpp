@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/splatting/splatting.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "frame/test_frame.h"
 #include "golden.h"
 #include "techniques/splatting/splatting_levels.h"
@@ -72,6 +75,20 @@ TEST(Splatting, ManyResolutionsComeNearTheFullSumForFarLess) {
   EXPECT_LT(paper.counts.subsplats, coarse.counts.subsplats);
   const Picture blocks = draw(scene, settings({{"upsample", "blocks"}}), 384, 384);
   EXPECT_GT(relativeError(blocks, full), 1.5 * relativeError(coarse, full));
+}
+
+TEST(Splatting, MergedLightsComeNearAllOfThem) {
+  const Scene scene = loadScene("builtin:swing?detail=0.5");
+  const auto with = [&](const char* threshold) {
+    return draw(scene, settings({{"vpls", "1024"}, {"cluster_threshold", threshold}}), 128, 128);
+  };
+  const Picture all = with("0"), merged = with("0.006"), more = with("0.1");
+  EXPECT_EQ(all.counts.listed[0], all.counts.subsplats);
+  EXPECT_LT(merged.counts.listed[0], merged.counts.listed[1]);
+  EXPECT_LT(merged.counts.listed[1], merged.counts.subsplats);
+  EXPECT_LT(more.counts.listed[0], merged.counts.listed[0] / 4);
+  EXPECT_LT(relativeError(merged, all), 0.01);
+  EXPECT_LT(relativeError(more, all), 0.1);
 }
 
 // Inside a diffuse sphere, light from any point of it falls evenly on all: E = rho I / R^2, wherever the lamp stands.
@@ -238,7 +255,12 @@ TEST(Splatting, WhatIsAskedForBadlyHasAnAnswer) {
     return count;
   };
   PosedScene posed = pose(scene, 0.0f);
+  const auto told = [&](const char* what) {
+    return std::ranges::any_of(frame.warnings,
+                               [&](const std::string& line) { return line.find(what) != std::string::npos; });
+  };
   EXPECT_EQ(terms(posed, settings({})), 1u);
+  EXPECT_FALSE(told("sends no light"));
   EXPECT_EQ(terms(posed, settings({{"vpls", "0"}})), 0u);
   const auto allFinite = [&] {
     for (const float x : frame.floats("splatting.irradiance")) {
@@ -259,6 +281,21 @@ TEST(Splatting, WhatIsAskedForBadlyHasAnAnswer) {
     EXPECT_EQ(terms(posed, settings({})), 1u);
     EXPECT_TRUE(allFinite()) << cone;
   }
+  EXPECT_EQ(told("its cone has no angle"), lamp.light.type == Light::Type::kSpot);
+  lamp.light.type = Light::Type::kSpot;
+  lamp.light.inner_cone_rad = lamp.light.outer_cone_rad = 0.0f;
+  EXPECT_EQ(terms(posed, settings({})), 1u);
+  EXPECT_TRUE(told("its cone has no angle"));
+  lamp.light.inner_cone_rad = lamp.light.outer_cone_rad = 0.5f;
+  lamp.position = {0, 50, 0};
+  lamp.direction = {0, 1, 0};
+  EXPECT_EQ(terms(posed, settings({})), 1u);
+  EXPECT_TRUE(told("shines away"));
+  lamp.direction = {0, -1, 0};
+  lamp.light.range = 10.0f;
+  EXPECT_EQ(terms(posed, settings({})), 1u);
+  EXPECT_TRUE(told("its range ends"));
+  lamp.light.range = 0.0f;
   lamp.light.intensity = glm::vec3(0.0f);
   EXPECT_EQ(terms(posed, settings({})), 0u);
   EXPECT_NE(frame.warnings.back().find("no lamp shines"), std::string::npos);
@@ -285,6 +322,35 @@ TEST(Splatting, GoldenRoom) {
     }
   }
   EXPECT_EQ(test::compareWithGolden(picture, "lamp_splatting"), "");
+}
+
+// A sphere lit evenly from inside shines as bright wherever its wall is mirrored: a lobe's integral is 1, whatever its exponent. A mirrored
+// light of normal maps and gloss alike: radiance of the wall, rho I / (pi R^2).
+TEST(Splatting, GlossOfAnEvenlyLitSphereIsItsRadiance) {
+  const PosedCamera camera = frame::cameraAt({0.0f, 1.0f, 1.0f}, {0, 1, 0}, 30);
+  for (const float roughness : {0.4f, 0.6f, 1.0f}) {
+    SceneBuilder builder("sphere");
+    builder.place("sphere", shapes::icosphere(2.0f, 30), builder.diffuse("white", glm::vec3(0.8f)));
+    builder.place("ball", shapes::icosphere(0.2f, 12), builder.metal("metal", glm::vec3(1.0f), roughness),
+                  {0.0f, 1.0f, 0.0f});
+    Light lamp;
+    lamp.type = Light::Type::kPoint;
+    lamp.intensity = glm::vec3(5.0f);
+    builder.light(lamp, {0.0f, 0.0f, 0.0f});
+    const Scene scene = builder.finish();
+    frame::TestFrame frame(scene);
+    Splatting technique(gpu::testDevice());
+    const PosedScene posed = pose(scene, 0.0f);
+    frame.draw(posed, camera, {.width = 40, .height = 40},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 return technique.record(graph, inputs, settings({{"gloss", "true"}, {"vpls", "1000"}}));
+               });
+    const std::vector<float> gloss = frame.floats("splatting.gloss");
+    const float want = 0.8f * 5.0f / (4.0f * std::numbers::pi_v<float>);
+    const std::size_t middle = 4 * (20 * 40 + 20);
+    EXPECT_EQ(gloss[0], 0.0f);  // the wall has none
+    EXPECT_NEAR(gloss[middle], want, 0.15f * want) << roughness;
+  }
 }
 
 TEST(Splatting, SamePictureAgain) {

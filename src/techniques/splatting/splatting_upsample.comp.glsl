@@ -21,10 +21,11 @@ layout(set = 0, binding = 3) uniform writeonly image2D result;
 layout(scalar, set = 0, binding = 4) uniform ViewBlock { FrameView view; } frame_view;
 layout(scalar, push_constant) uniform Push { Thresholds thresholds; } push;
 
-/// Whether both vary together by no more than two texels of a smooth surface may.
+/// Whether both vary together by no more than two texels of a smooth surface may; facets of what is shaded smoothly go together.
+const float kFacets = 0.4;
 bool goTogether(Ranges a, Ranges b) {
   Ranges both = joined(a, b);
-  return both.near > 0.0 && normalSpan(both) <= 2.0 * push.thresholds.normal &&
+  return both.near > 0.0 && normalSpan(both) <= max(2.0 * push.thresholds.normal, kFacets) &&
          depthSpan(both, vec2(frame_view.view.depth_range, frame_view.view.z_near)) <= 2.0 * push.thresholds.depth;
 }
 
