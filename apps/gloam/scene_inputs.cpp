@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -174,7 +175,14 @@ Environment chooseBaseEnvironment(const Scene& scene, const LightChoice& choice,
     environment = scene.environment;
     if (environment.empty() && scene.lights.empty() && choice.lights.empty()) {
       environment = loadEnvironment(kDefaultSky);
-      console.remark(fmt::format("no light in the scene and no --env: lit by {}", kDefaultSky));
+      const bool glows = std::ranges::any_of(
+          scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0f); });
+      console.remark(
+          glows
+              ? fmt::format("no lamp in the scene and no --env: lit by {} beside what glows (--env none: by "
+                            "that alone)",
+                            kDefaultSky)
+              : fmt::format("no light in the scene and no --env: lit by {}", kDefaultSky));
     }
   } else if (choice.environment != "none") {
     environment = loadEnvironment(choice.environment);
