@@ -19,7 +19,7 @@ using Values = std::vector<std::pair<const char*, std::string>>;
 
 constexpr int kSides[] = {2, 4, 8, 16};
 constexpr const char* kModes[] = {"radiance", "irradiance", "irradiance_normals", "brute", "brute_exact"};
-constexpr int kReferenceSamples = 256;
+constexpr int kReferenceSamples = 1024;
 
 // Bytes a pixel: what all modes read (frame/gbuffer.h), three bands in halves, one irradiance in halves (RGBA).
 constexpr double kGBufferBytes = 44.0, kFieldBytes = 56.0, kIrradianceBytes = 8.0;
@@ -60,17 +60,17 @@ void addErrors(PaperTable& table, BenchStage& stage, const Image& truth, int sid
     table.rows.push_back({fmt::format("{}: {}", at, name), value, std::nullopt, unit, better});
   };
   for (int m = 0; m < 5; ++m) {
-    add(fmt::format("{} against the path tracer", kModes[m]), 100.0 * relativeRmse(pictures[m], truth),
-        "% RMSE", Better::kLower);
+    add(fmt::format("{} against the path tracer, relative RMSE", kModes[m]),
+        100.0 * relativeRmse(pictures[m], truth), "%", Better::kLower);
     const double decibels = psnr(pictures[m], truth);
-    add(fmt::format("{} against the path tracer", kModes[m]), decibels, "dB PSNR", Better::kHigher);
+    add(fmt::format("{} against the path tracer, PSNR", kModes[m]), decibels, "dB", Better::kHigher);
     table.plot.curves[std::size_t(m)].values.push_back(decibels);
   }
   for (int m = 0; m < 3; ++m)
-    add(fmt::format("{} against {}: interleaving alone", kModes[m], m == 0 ? "brute" : "brute_exact"),
-        psnr(pictures[m], pictures[m == 0 ? 3 : 4]), "dB PSNR", Better::kHigher);
-  add("brute against brute_exact: three bands alone", 100.0 * relativeRmse(pictures[3], pictures[4]),
-      "% RMSE", Better::kLower);
+    add(fmt::format("{} against {}: interleaving alone, PSNR", kModes[m], m == 0 ? "brute" : "brute_exact"),
+        psnr(pictures[m], pictures[m == 0 ? 3 : 4]), "dB", Better::kHigher);
+  add("brute against brute_exact: three bands alone, relative RMSE",
+      100.0 * relativeRmse(pictures[3], pictures[4]), "%", Better::kLower);
   add("error of radiance over that of brute, both against the path tracer",
       relativeRmse(pictures[0], truth) / relativeRmse(pictures[3], truth), "ratio", Better::kLower);
 }

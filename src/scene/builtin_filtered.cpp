@@ -19,10 +19,10 @@ int glowing(SceneBuilder& builder, const std::string& name, const glm::vec3& rad
   return material;
 }
 
-/// Half metal: diffuse and glossy light alike.
+/// A third of it metal: both lobes show.
 int lacquer(SceneBuilder& builder, const std::string& name, const glm::vec3& color, float roughness) {
   const int material = builder.metal(name, color, roughness);
-  builder.material(material).metallic = 0.5f;
+  builder.material(material).metallic = 0.3f;
   return material;
 }
 
@@ -46,21 +46,21 @@ Mesh bumpedBall(float radius, float height, const Detail& detail) {
 
 Scene makeBumps(const Detail& detail, NamedValues& values) {
   SceneBuilder builder("bumps");
-  const float roughness = float(values.take("roughness", 0.65, 0.3, 1));
+  const float roughness = float(values.take("roughness", 0.73, 0.3, 1));
   const int cobbles = lacquer(builder, "cobbles", {0.75f, 0.72f, 0.68f}, roughness);
-  const int normals = builder.texture(paintNormals("cobble normals", 256, 256, [](float u, float v) {
+  const int normals = builder.texture(paintNormals("cobble normals", 64, 64, [](float u, float v) {
     const float rows = std::sin(2 * kPi * 6 * u) * std::sin(2 * kPi * 6 * v);
-    return 0.016f * rows + 0.010f * tilingNoise(u * 24, v * 24, 24, 3);
+    return 0.016f * rows + 0.010f * tilingNoise(u * 16, v * 16, 16, 3);
   }));
   builder.material(cobbles).normal_map.texture = normals;
-  builder.place("ground", shapes::withUvScale(shapes::ground(3, 3, detail(24), detail(24)), {4, 4}), cobbles);
+  builder.place("ground", shapes::withUvScale(shapes::ground(3, 3, detail(24), detail(24)), {3, 3}), cobbles);
   builder.place("ball", bumpedBall(0.34f, 0.012f, detail),
                 lacquer(builder, "ball", {0.8f, 0.78f, 0.75f}, roughness), {0, 0.36f, -0.1f});
   const glm::vec3 lamps[] = {{-1.25f, 0.95f, 0.45f}, {1.3f, 0.9f, 0.4f}, {0.15f, 1.5f, -1.0f}};
-  const glm::vec3 colors[] = {{54, 6, 4}, {4, 9, 62}, {8, 60, 8}};
+  const glm::vec3 colors[] = {{14, 1.6f, 1.2f}, {1.2f, 2.5f, 16}, {2, 14, 2}};
   for (int i = 0; i < 3; ++i) {
     const char* names[] = {"red lamp", "blue lamp", "green lamp"};
-    builder.place(names[i], shapes::icosphere(0.1f, 3), glowing(builder, names[i], colors[i]), lamps[i]);
+    builder.place(names[i], shapes::icosphere(0.22f, 4), glowing(builder, names[i], colors[i]), lamps[i]);
   }
   builder.camera({0.0f, 1.35f, 1.9f}, {0, 0.16f, 0.0f}, 33);
   return builder.finish();
