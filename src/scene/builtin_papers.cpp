@@ -203,9 +203,11 @@ Scene makeTeapot(const Detail& detail, NamedValues&) {
 
 Scene makeStatue(const Detail& detail, NamedValues& values) {
   const double triangles = values.take("triangles", 250000, 500, 4e6);
+  const auto roughness = float(values.take("roughness", 1.0, 0.1, 1.0));
   Stage stage("statue", detail);
-  stage.turn(stage.builder.place("statue", carvedOf(counted(triangles, detail), statueAt), stage.white),
-             1.0f);
+  const int paint =
+      roughness < 1.0f ? stage.builder.metal("bronze", {0.8f, 0.6f, 0.35f}, roughness) : stage.white;
+  stage.turn(stage.builder.place("statue", carvedOf(counted(triangles, detail), statueAt), paint), 1.0f);
   stage.lamp({1.4f, 2.1f, 1.8f}, {-0.4f, 0.6f, -0.5f}, 20, 40);
   return stage.finish();
 }

@@ -37,7 +37,7 @@ const std::vector<Entry>& entries() {
        makeSwing},
       {{"teapot", "a teapot between coloured walls under a spot (8K triangles)"},
        makeTeapot},
-      {{"statue", "a robed statue turns between coloured walls (8 s, loops; triangles)"}, makeStatue},
+      {{"statue", "a robed statue turns between coloured walls (8 s, loops; triangles, roughness)"}, makeStatue},
       {{"serpent", "a coiled serpent and a hare between coloured walls (405K triangles)"}, makeSerpent},
       {{"flying", "six hares turn in the air between coloured walls (8 s, loops; 412K triangles)"},
        makeFlyingHares},
