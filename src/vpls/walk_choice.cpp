@@ -84,20 +84,22 @@ void choose(std::span<const WalkVpl> rows, std::span<const float> shares, double
 std::vector<WalkVpl> chooseRows(const WalkPlan& from, std::span<const WalkVpl> candidates, const WalkPlan& to,
                                 const visibility::WorldTracer& tracer,
                                 std::span<const visibility::SightPoint> seen) {
-  const std::vector<float> shares = sharesOf(candidates, tracer, seen);
+  // Rows for sources are even as they are: choosing among them made them less so, and light worse.
+  const auto fixed = std::size_t(to.lamps + to.direct);
+  std::vector<WalkVpl> lit;
+  for (std::size_t s = 0; s < std::size_t(to.sets); ++s) {
+    const auto own = candidates.subspan(s * from.stride() + fixed, std::size_t(from.indirect()));
+    lit.insert(lit.end(), own.begin(), own.end());
+  }
+  const std::vector<float> shares = sharesOf(lit, tracer, seen);
   std::vector<WalkVpl> rows(std::size_t(to.sets) * to.stride(), emptyRow());
   for (std::size_t s = 0; s < std::size_t(to.sets); ++s) {
-    const auto own = candidates.subspan(s * from.stride(), from.stride());
-    const auto own_shares = std::span(shares).subspan(s * from.stride(), from.stride());
     const auto kept = std::span(rows).subspan(s * to.stride(), to.stride());
-    const auto lamps = std::size_t(to.lamps), direct = std::size_t(from.direct),
-               indirect = std::size_t(from.indirect());
-    std::copy_n(own.begin(), lamps, kept.begin());
+    const auto each = std::size_t(from.indirect());
     const double offset = std::fmod((double(s) + 0.5) * 0.6180339887498949, 1.0);
-    choose(own.subspan(lamps, direct), own_shares.subspan(lamps, direct), offset,
-           kept.subspan(lamps, std::size_t(to.direct)));
-    choose(own.subspan(lamps + direct, indirect), own_shares.subspan(lamps + direct, indirect), offset,
-           kept.subspan(lamps + std::size_t(to.direct), std::size_t(to.indirect())));
+    std::copy_n(candidates.begin() + std::ptrdiff_t(s * from.stride()), fixed, kept.begin());
+    choose(std::span(lit).subspan(s * each, each), std::span(shares).subspan(s * each, each), offset,
+           kept.subspan(fixed, std::size_t(to.indirect())));
   }
   return rows;
 }

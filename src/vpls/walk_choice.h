@@ -11,8 +11,8 @@ namespace gloam::vpls {
 
 inline constexpr std::uint32_t kSeenPoints = 32;
 
-/// Out of the rows of a plan with more rows, those of another: by how much they add at points that the camera sees, at all of these
-/// alike. A fifth of the choice is blind, so that no light is left out: sums stay true in the mean, and a row that is kept stands for
+/// Out of a plan's rows for lit surfaces, those of a plan with fewer: by how much they add at points that the camera sees, at all of these
+/// alike. Other rows stay. A fifth of the choice is blind, so that no light is left out: sums stay true in the mean, and a row that is kept stands for
 /// at most six times its light. No such points: a choice without preference.
 std::vector<WalkVpl> chooseRows(const WalkPlan& from, std::span<const WalkVpl> candidates, const WalkPlan& to,
                                 const visibility::WorldTracer& tracer,

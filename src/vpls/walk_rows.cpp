@@ -218,14 +218,14 @@ WalkPlan planWalks(const WalkOptions& options, std::size_t lamps, int candidates
       throw Error("virtual lights", fmt::format("{} rows or bounces; expected 0 to {}", count, kMostRows));
   }
   const std::int64_t each =
-      (std::int64_t(options.direct) + options.indirect) * candidates + options.most_lamps;
+      std::int64_t(options.direct) + std::int64_t(options.indirect) * candidates + options.most_lamps;
   if (each * options.sets > kMostRows)
     throw Error("virtual lights", fmt::format("{} sets of {} rows; expected at most {} rows in all",
                                               options.sets, each, kMostRows));
   WalkPlan plan;
   plan.sets = options.sets;
   plan.lamps = int(std::min(lamps, std::size_t(options.most_lamps)));
-  plan.direct = options.direct * candidates;
+  plan.direct = options.direct;
   if (options.bounces > 0) plan.paths = pathCounts(options.indirect * candidates, options.bounces);
   return plan;
 }

@@ -15,7 +15,7 @@ struct WalkPlan {
   std::uint32_t stride() const { return std::uint32_t(lamps + direct + indirect() + 3) / 4 * 4; }
 };
 
-/// With `candidates` times as many rows as asked for, but of lamps. Throws Error for counts below 0 or beyond what is made.
+/// With `candidates` times as many rows for lit surfaces as asked for. Throws Error for counts below 0 or beyond what is made.
 WalkPlan planWalks(const WalkOptions& options, std::size_t lamps, int candidates);
 
 /// What sends light in a frame.

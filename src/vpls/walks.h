@@ -20,7 +20,7 @@ struct WalkOptions {
   /// Rows a set for punctual lamps themselves: all of them where there are no more, else a choice by power. They light surfaces
   /// either way.
   int most_lamps = 16;
-  /// So many times more rows are made, and those kept, more or less brightened, that add most where the camera looks (RF-7). For
+  /// So many times more rows for lit surfaces are made, and those kept, more or less brightened, that add most where the camera looks (RF-7). For
   /// scenes of which little is seen or lit. 1: all that are made are kept.
   int candidates = 1;
 };

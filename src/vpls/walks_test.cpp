@@ -369,7 +369,7 @@ TEST(Walks, OddNumbersHaveAnswers) {
   EXPECT_THROW(make(scene, {.sets = 4, .direct = -1}), Error);
   EXPECT_THROW(make(scene, {.sets = 4, .candidates = 0}), Error);
   EXPECT_THROW(make(scene, {.sets = 256, .indirect = 1 << 20}), Error);
-  EXPECT_THROW(make(scene, {.sets = 256, .direct = 1000, .candidates = 64}), Error);
+  EXPECT_THROW(make(scene, {.sets = 256, .indirect = 1000, .candidates = 64}), Error);
   const Made many = make(scene, {.sets = 1, .direct = 0, .indirect = 100000, .bounces = 3});
   EXPECT_GT(many.sets.at(0).count, 99900u);
   expectNear(many.flux(0, 3), 4.0f * kPi * 0.125f * glm::vec3(3, 2, 1), 1e-3f, "third");
