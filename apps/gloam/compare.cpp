@@ -53,8 +53,10 @@ void addReferenceOptions(CLI::App& app, CompareChoice& choice) {
 std::function<int()> declareCompare(CLI::App& app, Console& console) {
   const auto choice = std::make_shared<CompareChoice>();
   addSceneOptions(app, choice->scene);
-  addName(app, "--techniques", choice->techniques, "LIST",
-          "what is compared: names apart by commas, each with :OPTION=VALUE as often as wanted")
+  addName(
+      app, "--techniques", choice->techniques, "LIST",
+      "what is compared: names apart by commas, each with :OPTION=VALUE as often as wanted; all: every one "
+      "that can draw the scene")
       ->default_str(allTechniques());
   addOutput(app, choice->output, "FOLDER", "pictures, results and index.html; by default SCENE_compare");
   addReferenceOptions(app, *choice);
@@ -68,7 +70,12 @@ std::function<int()> declareCompare(CLI::App& app, Console& console) {
       ->default_str("20");
   const auto setExposure = [choice](const std::string& text) {
     choice->exposure_stops.reset();
-    if (text != "auto") choice->exposure_stops = float(parseNumber("--exposure", text, {-8.0, 8.0}));
+    if (text == "auto") return;
+    try {
+      choice->exposure_stops = float(parseNumber("--exposure", text, {-8.0, 8.0}));
+    } catch (const Error& error) {
+      throw Error(std::string(error.what()) + ", or auto");
+    }
   };
   app.add_option_function<std::string>("--exposure", setExposure, "stops with which the page begins")
       ->type_name("STOPS|auto")

@@ -6,6 +6,11 @@
 #include <gloam/error.h>
 #include <image/atomic_file.h>
 
+#include <algorithm>
+#include <fstream>
+
+#include "json.h"
+
 namespace gloam::cli {
 
 namespace fs = std::filesystem;
@@ -26,6 +31,25 @@ void CompareFolder::make() const {
   if (fs::is_directory(path_, error)) return;
   fs::create_directory(path_, error);
   if (error) throw Error(path_.string(), fmt::format("cannot make this folder: {}", error.message()));
+}
+
+void CompareFolder::removeStale(const std::vector<fs::path>& kept, const fs::path& used) const {
+  std::ifstream stream(file("results.json"));
+  const Json before = Json::parse(stream, nullptr, false);
+  if (!before.is_object() || !before.contains("techniques") || !before["techniques"].is_array()) return;
+  for (const Json& technique : before["techniques"]) {
+    for (const char* field : {"file", "reference_file"}) {
+      if (!technique.is_object() || !technique.contains(field) || !technique[field].is_string()) continue;
+      // Of this folder, and of a name that a comparison gives: whatever a changed results.json says.
+      const fs::path name = technique[field].get<std::string>();
+      if (name != name.filename() || name.extension() != ".exr" || name == "reference.exr") continue;
+      const fs::path old = file(name.string());
+      std::error_code ignored;
+      const auto same = [&](const fs::path& other) { return fs::equivalent(old, other, ignored); };
+      if (std::ranges::any_of(kept, same) || (!used.empty() && same(used))) continue;
+      if (fs::is_regular_file(fs::symlink_status(old, ignored))) fs::remove(old, ignored);
+    }
+  }
 }
 
 void CompareFolder::writeText(const std::string& name, const std::string& text) const {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare_plan.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -24,6 +24,7 @@ Contender contenderOf(const std::string& text, const TechniqueChoice& common) {
   std::vector<std::string> names;
   for (const TechniqueInfo& info : techniques()) names.emplace_back(info.name);
   if (std::ranges::find(names, parts.front()) == names.end()) {
+    names.emplace_back("all");
     throw Error("--techniques", fmt::format("'{}'{}: expected {}, each with :OPTION=VALUE as often as wanted",
                                             parts.front(), didYouMean(parts.front(), names), listed(names)));
   }
@@ -49,33 +50,69 @@ float brightest(const glm::vec3& color) {
   return std::max({color.r, color.g, color.b});
 }
 
+bool glows(const Scene& scene, int index) {
+  const Mesh& mesh = scene.meshes[std::size_t(index)];
+  return !mesh.indices.empty() && brightest(scene.materials[std::size_t(mesh.material)].emission) > 0.0f;
+}
+
 bool emits(const Scene& scene, const PosedScene& posed) {
-  return std::ranges::any_of(posed.instances, [&](const Instance& instance) {
-    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-    const glm::vec3& emission = scene.materials[std::size_t(mesh.material)].emission;
-    return !mesh.indices.empty() && brightest(emission) > 0.0f;
-  });
+  return std::ranges::any_of(posed.instances,
+                             [&](const Instance& instance) { return glows(scene, instance.mesh); });
+}
+
+/// All that moves does so by bones or morph targets, and something does.
+bool deformsAltogether(const Scene& scene, const PosedScene& posed) {
+  bool any = false;
+  for (const Instance& instance : posed.instances) {
+    if (scene.meshes[std::size_t(instance.mesh)].indices.empty()) continue;
+    if (!instance.deformed()) return false;
+    any = true;
+  }
+  return any;
+}
+
+/// Takes out what nobody named and `unfit` holds for; `why` is the end of the line that says so.
+template <class Unfit>
+void leaveOut(std::vector<Contender>& contenders, Console& console, const std::string& why,
+              const Unfit& unfit) {
+  const auto goes = [&](const Contender& contender) { return !contender.named && unfit(contender); };
+  if (std::ranges::all_of(contenders, goes)) return;
+  std::vector<std::string> names;
+  for (const Contender& contender : contenders) {
+    if (goes(contender)) names.push_back(contender.label);
+  }
+  std::erase_if(contenders, goes);
+  if (!names.empty()) console.remark(fmt::format("left out: {} ({})", listed(names), why));
 }
 
 }  // namespace
 
 std::vector<Contender> planContenders(const std::string& list, const TechniqueChoice& common) {
   std::vector<Contender> contenders;
-  for (const std::string& text : splitAt(list, ',')) {
-    Contender contender = contenderOf(text, common);
+  const auto add = [&](Contender contender) {
     for (const Contender& other : contenders) {
       if (other.technique == contender.technique && other.settings.list() == contender.settings.list()) {
         throw Error("--techniques", fmt::format("'{}' is the same as '{}'", contender.label, other.label));
       }
     }
     contenders.push_back(std::move(contender));
+  };
+  for (const std::string& text : splitAt(list, ',')) {
+    if (text == "all") {
+      for (Contender& contender : allContenders(common)) add(std::move(contender));
+    } else {
+      add(contenderOf(text, common));
+    }
   }
   return contenders;
 }
 
 std::vector<Contender> allContenders(const TechniqueChoice& common) {
   std::vector<Contender> contenders;
-  for (const TechniqueInfo& info : techniques()) contenders.push_back(contenderOf(info.name, common));
+  for (const TechniqueInfo& info : techniques()) {
+    contenders.push_back(contenderOf(info.name, common));
+    contenders.back().named = false;
+  }
   return contenders;
 }
 
@@ -89,6 +126,15 @@ Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment&
   light.local_indirect = light.local_direct && bounces > 0;
   light.emitter_indirect = light.emitter_direct && bounces > 0;
   return light;
+}
+
+std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres) {
+  std::vector<std::string> names;
+  for (const SphereSet& set : spheres.sets) {
+    const bool any = std::ranges::any_of(set.meshes, [&](int mesh) { return glows(scene, mesh); });
+    if (any && set.spheres.empty()) names.push_back(set.name);
+  }
+  return names;
 }
 
 Coverage coverageOf(const Contender& contender) {
@@ -107,6 +153,25 @@ bool anyIndirect(const Coverage& coverage) {
 
 bool lights(const Contender& contender, const Coverage& in_scene) {
   return both(coverageOf(contender), in_scene) != Coverage{};
+}
+
+void leaveOutDark(std::vector<Contender>& contenders, const Coverage& in_scene, Console& console) {
+  leaveOut(contenders, console, fmt::format("covers nothing of {}", fmt::join(coverageNames(in_scene), ", ")),
+           [&](const Contender& contender) { return !lights(contender, in_scene); });
+}
+
+void leaveOutUnbakeable(std::vector<Contender>& contenders, const Scene& scene, const PosedScene& posed,
+                        Console& console) {
+  if (carriesTransfer(scene) || !deformsAltogether(scene, posed)) return;
+  leaveOut(contenders, console, "all meshes are skinned or morphed; rigid ones alone can be baked",
+           [](const Contender& contender) { return contender.technique->needs_bake; });
+  for (const Contender& contender : contenders) {
+    if (!contender.technique->needs_bake) continue;
+    throw Error(
+        "--techniques",
+        fmt::format("{} needs a bake: all meshes are skinned or morphed, and rigid ones alone can be baked",
+                    contender.technique->name));
+  }
 }
 
 void requireLight(const Contender& contender, const Coverage& in_scene) {

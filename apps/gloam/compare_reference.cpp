@@ -17,26 +17,45 @@ namespace fs = std::filesystem;
 /// What a reference that was made here is known by: the path tracer's own attributes say what is in it, not of which scene.
 constexpr const char* kInputs = "gloam.compare.inputs";
 
+std::string textOf(const LayeredImage& image, const char* name) {
+  const auto found = image.attributes.find(name);
+  return found == image.attributes.end() ? "" : found->second;
+}
+
+/// Nothing where it is not there; throws Error where it is anything but a number from `least` to `most`.
 template <class Number>
-std::optional<Number> attribute(const LayeredImage& image, const char* name) {
+std::optional<Number> attribute(const LayeredImage& image, const fs::path& file, const char* name,
+                                Number least, Number most) {
   const auto found = image.attributes.find(name);
   if (found == image.attributes.end()) return std::nullopt;
   Number value{};
   const std::string& text = found->second;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  if (problem != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most)) {
+    throw Error(file.string(), fmt::format("attribute {} is '{}'; expected a number from {} to {}", name,
+                                           text, least, most));
+  }
   return value;
+}
+
+std::string versionText(const std::string& version, const std::string& revision) {
+  return version.empty() ? ""
+                         : fmt::format("gloam {}, tracer {}", version, revision.empty() ? "1" : revision);
 }
 
 ReferencePicture pictureOf(LayeredImage layers, const fs::path& file) {
   ReferencePicture picture;
   picture.file = file;
-  picture.samples = attribute<int>(layers, "gloam.samples");
-  picture.noise = attribute<double>(layers, "gloam.noise");
-  picture.bounces = attribute<int>(layers, "gloam.bounces").value_or(1);
-  picture.environment_order = attribute<int>(layers, "gloam.environment_order").value_or(0);
-  picture.supersample = attribute<int>(layers, "gloam.supersample").value_or(1);
-  picture.background = attribute<int>(layers, "gloam.background").value_or(1) != 0;
+  const auto whole = [&](const char* name, int least, int most) {
+    return attribute<int>(layers, file, name, least, most);
+  };
+  picture.version = versionText(textOf(layers, "gloam.version"), textOf(layers, "gloam.revision"));
+  picture.samples = whole("gloam.samples", 0, 1 << 24);
+  picture.noise = attribute<double>(layers, file, "gloam.noise", 0.0, double(INFINITY));
+  picture.bounces = whole("gloam.bounces", 0, 1000).value_or(1);
+  picture.environment_order = whole("gloam.environment_order", 0, 6).value_or(0);
+  picture.supersample = whole("gloam.supersample", 1, 4).value_or(1);
+  picture.background = whole("gloam.background", 0, 1).value_or(1) != 0;
   picture.layers = std::move(layers);
   return picture;
 }
@@ -57,9 +76,22 @@ void requireFinite(const LayeredImage& image, const fs::path& file) {
   }
 }
 
+/// What a comparison takes from any reference, and that nobody cut a piece out of it.
+void requireWhole(const LayeredImage& image, const fs::path& file) {
+  image.image("", {"R", "G", "B", "A"}, file.string());
+  for (const char* name : {"direct", "indirect"}) image.image(name, {"R", "G", "B"}, file.string());
+  const std::string said = textOf(image, "gloam.size"), is = fmt::format("{}x{}", image.width, image.height);
+  if (!said.empty() && said != is) {
+    throw Error(
+        file.string(),
+        fmt::format("is {}, but its attribute gloam.size says {}: expected the whole picture", is, said));
+  }
+}
+
 std::string inputsOf(const ReferenceScene& scene, const ReferenceOptions& options) {
   Fingerprint print;
-  addAll(print, std::string(GLOAM_VERSION), scene.scene, scene.posed, scene.camera, scene.environment);
+  addAll(print, std::string(GLOAM_VERSION), kReferenceRevision, scene.scene, scene.posed, scene.camera,
+         scene.environment);
   addAll(print, options.width, options.height, options.supersample, options.bounces,
          options.environment_order, options.background, options.seed);
   return print.text();
@@ -121,6 +153,7 @@ LayeredImage traceResumed(const ReferenceScene& scene, const ReferenceOptions& o
 ReferencePicture readReference(const fs::path& file) {
   LayeredImage layers = readExr(file);
   coverageOf(layers, file.string());
+  requireWhole(layers, file);
   requireFinite(layers, file);
   ReferencePicture picture = pictureOf(std::move(layers), file);
   picture.text = samplesText(picture, file.string());
@@ -190,6 +223,26 @@ std::optional<double> relativeNoise(const ReferencePicture& reference) {
   for (const float value : light.pixels) sum += double(value), squares += double(value) * double(value);
   if (!reference.noise || !std::isfinite(*reference.noise) || squares <= 0.0) return std::nullopt;
   return *reference.noise * sum / std::sqrt(squares * double(light.pixels.size()));
+}
+
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part,
+                                    const Image& light, const Image& mask) {
+  const std::optional<double> variance = varianceOf(reference.layers, part, reference.file.string());
+  double squares = 0.0;
+  for (std::size_t pixel = 0; pixel < mask.pixels.size(); ++pixel) {
+    if (mask.pixels[pixel] <= 0.0f) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = double(light.pixels[pixel * std::size_t(light.channels) + c]);
+      squares += value * value;
+    }
+  }
+  if (!variance || squares <= 0.0) return std::nullopt;
+  // Where nothing is seen there is no chance either: all of it is within the mask.
+  return std::sqrt(*variance * 3.0 * double(mask.pixels.size()) / squares);
+}
+
+std::string tracerVersion() {
+  return versionText(GLOAM_VERSION, std::to_string(kReferenceRevision));
 }
 
 Image surfaceMask(const ReferencePicture& reference) {

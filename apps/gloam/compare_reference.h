@@ -17,14 +17,16 @@ struct ReferencePicture {
   LayeredImage layers;  ///< all that `imageOf` takes parts from
   std::filesystem::path file;
   std::string text;  ///< where it came from, for people
+  std::string
+      version;  ///< of what traced it: of gloam, and the tracer's revision; empty where the file does not say
   std::optional<int> samples;
   std::optional<double> noise;
   int bounces = 1, environment_order = 0, supersample = 1;
   bool background = false;  ///< drawn behind the scene
 };
 
-/// Reads a reference that was given: throws Error where it does not say what light it holds, or holds values that are not
-/// finite.
+/// Reads a reference that was given: throws Error where it does not say what light it holds, holds values that are not
+/// finite, lacks a layer, has attributes that cannot be or another size than they say.
 ReferencePicture readReference(const std::filesystem::path& file);
 
 /// What a reference is of.
@@ -50,6 +52,13 @@ LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& par
 /// The relative error ||a - b|| / ||b|| that noise alone is expected to make of all light: PathTracer::noise() is relative
 /// to the mean, this to the root mean square. Nothing where the file does not tell.
 std::optional<double> relativeNoise(const ReferencePicture& reference);
+/// The same of a part of the light, over pixels of `mask` of that part's own picture `light`. Nothing where the file does not
+/// tell: `gloam reference --parts` of this gloam does.
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part,
+                                    const Image& light, const Image& mask);
+
+/// "gloam 1.2.3, tracer 4": as ReferencePicture::version has it.
+std::string tracerVersion();
 
 /// One channel: 1 where a surface is seen, as `gloam diff --foreground` finds it. Throws Error where none is.
 Image surfaceMask(const ReferencePicture& reference);

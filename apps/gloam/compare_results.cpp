@@ -59,6 +59,7 @@ Json techniqueJson(const TechniqueResult& result) {
   json["frame_ms"] = result.frame_ms;
   json["covers"] = coverageNames(result.covers);
   json["leaves_out"] = coverageNames(result.missing);
+  json["reference_noise"] = orNull(result.reference_noise);
   json["bake_note"] = result.bake_note;
   json["notes"] = result.notes;
   json["file"] = result.file.filename().string();
@@ -139,20 +140,35 @@ std::vector<std::string> resultsTable(const CompareResults& results) {
   return lines;
 }
 
+std::vector<std::string> noteLines(const CompareResults& results) {
+  std::vector<std::string> lines;
+  for (const TechniqueResult& result : results.techniques) {
+    for (const std::string& note : result.notes) {
+      const std::string line = fmt::format("{}: {}", result.name, note);
+      if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
 std::string noiseRemark(const CompareResults& results) {
-  constexpr double kNear =
-      1.5;  // an error of so many times the noise is noise to a good part; index.html says so too
-  const double noise = results.reference_relative_noise.value_or(0.0);
-  const auto hidden = std::ranges::count_if(results.techniques, [&](const TechniqueResult& result) {
-    // The noise is that of all light: where a technique covers less, its own is rather more.
-    return result.sum && result.sum->relative_rmse < kNear * noise;
-  });
+  // An error of so many times its reference's noise is noise to a good part; index.html says so too.
+  constexpr double kNear = 1.5;
+  double least = INFINITY, most = 0.0;
+  int hidden = 0;
+  for (const TechniqueResult& result : results.techniques) {
+    const double noise = result.reference_noise.value_or(0.0);
+    if (!result.sum || result.sum->relative_rmse >= kNear * noise) continue;
+    ++hidden;
+    least = std::min(least, noise), most = std::max(most, noise);
+  }
   if (hidden == 0) return "";
+  const std::string low = fmt::format("{:.2g}", 100.0 * least), high = fmt::format("{:.2g}", 100.0 * most);
   return fmt::format(
-      "the reference's own noise is {:.2g} %, and {} of {} errors {} not clearly above it: a reference of more "
-      "samples "
-      "(--spp) tells more",
-      100.0 * noise, hidden, results.techniques.size(), hidden == 1 ? "is" : "are");
+      "{} of {} errors {} not clearly above the noise of what {} held to ({} %): a reference of "
+      "more samples (--spp) tells more",
+      hidden, results.techniques.size(), hidden == 1 ? "is" : "are", hidden == 1 ? "it is" : "they are",
+      low == high ? low : low + " to " + high);
 }
 
 }  // namespace gloam::cli

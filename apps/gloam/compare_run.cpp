@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "compare_folder.h"
+#include "compare_given.h"
 #include "compare_page.h"
 #include "compare_reference.h"
 #include "compare_results.h"
@@ -63,6 +64,7 @@ struct Comparison {
   std::vector<std::optional<SceneSpheres>> spheres;    ///< of contenders that need them
   std::vector<std::optional<SceneEmission>> emission;  ///< what these send, likewise
   std::vector<BakeTime> sphere_times;                  ///< what fitting and sampling those took
+  std::vector<std::string> dark_emitters;  ///< that have no spheres: what lives by these lacks their light
 };
 
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
@@ -82,6 +84,7 @@ void haveSpheres(Comparison& work, Console& console) {
     if (!contender.technique->needs_emission) continue;
     emission = emissionForDrawing(work.stage.scene, *spheres, work.choice.scene.name, work.choice.use_cache,
                                   console, &time);
+    work.dark_emitters = emittersWithoutSpheres(work.stage.scene, *spheres);
   }
 }
 
@@ -107,6 +110,10 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
     result.passes = drawn.timings.passesJson();
     result.memory_bytes = drawn.timings.memoryBytes();
     result.notes = std::move(drawn.warnings);
+    if (contender.technique->needs_emission && coverageOf(contender).emitter_direct) {
+      for (const std::string& name : work.dark_emitters)
+        result.notes.push_back(fmt::format("light of '{}' is missing: it has no spheres", name));
+    }
     if (contender.technique->needs_bake) {
       result.bake_seconds = work.stage.bake_seconds;
       result.bake_note = work.stage.bake_note;
@@ -146,6 +153,11 @@ void measureAll(Comparison& work, const Image& mask, const Progress& progress) {
                           stretch(progress, (double(i) + from) / count, (double(i) + to) / count), picture);
     };
     result.sum = measured("", 0.0, 0.34);
+    result.reference_noise =
+        relativeNoise(work.reference, result.covers, truth.image("", kRgb, "reference"), mask);
+    // All that the reference holds: what it says of itself is enough.
+    if (!result.reference_noise && result.missing == Coverage{})
+      result.reference_noise = work.results.reference_relative_noise;
     if (anyDirect(result.covers)) result.direct = measured("direct", 0.34, 0.67);
     if (anyIndirect(result.covers)) result.indirect = measured("indirect", 0.67, 1.0);
     result.command = fmt::format("gloam diff {} {} --foreground", shellWord(result.file.string()),
@@ -190,6 +202,11 @@ void writeAll(Comparison& work) {
   work.page.coverage = work.reference.layers.image("", {"A"}, "reference");
   const float found = std::round(4.0f * autoExposureStops(meanLog2Luminance(light))) / 4.0f;
   work.page.exposure_stops = std::clamp(work.choice.exposure_stops.value_or(found), -8.0f, 8.0f);
+  std::vector<fs::path> kept;
+  for (const TechniqueResult& result : work.results.techniques) {
+    kept.push_back(result.file), kept.push_back(result.reference_file);
+  }
+  work.folder.removeStale(kept, work.choice.reference);
   work.folder.writeText("results.json", jsonText(json) + "\n");
   work.folder.writeText("results.csv", resultsCsv(work.results));
   writePage(work.page, work.folder.file("index.html"));
@@ -219,63 +236,7 @@ void haveReference(Comparison& work, const Progress& progress, Console& console)
   work.results.reference_noise = work.reference.noise;
 }
 
-/// Pictures are drawn as the reference is, unless that contradicts what was asked for.
-ReferencePicture takeReference(CompareChoice& choice) {
-  const std::pair<const char*, bool> of_tracing[] = {{"--spp", choice.samples.has_value()},
-                                                     {"--noise", choice.noise > 0.0f},
-                                                     {"--seed", choice.seed.has_value()}};
-  for (const auto& [option, asked] : of_tracing) {
-    if (!asked) continue;
-    throw Error(option, fmt::format("says how a reference is traced; {} is there already (--reference)",
-                                    choice.reference));
-  }
-  ReferencePicture given = readReference(choice.reference);
-  const glm::ivec2 size{given.layers.width, given.layers.height};
-  const auto require = [&](bool same, const char* option, const std::string& asked, const std::string& has) {
-    if (!same) throw Error(option, fmt::format("{} was asked for, {} has {}", asked, choice.reference, has));
-  };
-  const auto sizeText = [](const glm::ivec2& s) { return fmt::format("{}x{}", s.x, s.y); };
-  if (choice.size_given) {
-    require(choice.view.size == size, "--size", sizeText(choice.view.size), sizeText(size));
-  }
-  if (choice.supersample_given) {
-    require(choice.view.supersample == given.supersample, "--supersample",
-            std::to_string(choice.view.supersample), std::to_string(given.supersample));
-  }
-  if (choice.bounces) {
-    require(*choice.bounces == given.bounces, "--bounces", std::to_string(*choice.bounces),
-            std::to_string(given.bounces));
-  }
-  if (choice.environment_order) {
-    require(*choice.environment_order == given.environment_order, "--sh-order",
-            std::to_string(*choice.environment_order), std::to_string(given.environment_order));
-  }
-  choice.view.size = size;
-  choice.view.supersample = given.supersample;
-  return given;
-}
-
-void checkGivenReference(Comparison& work, bool order_given, Console& console) {
-  const ReferencePicture& given = work.reference;
-  const CompareStage& stage = work.stage;
-  if (!checkReference(given, {stage.scene, stage.posed, stage.camera, stage.environment})) {
-    console.remark(
-        fmt::format("{} does not say what it is a picture of: that scene, light and camera are those of "
-                    "this comparison cannot be checked",
-                    work.choice.reference));
-  }
-  if (!order_given && given.environment_order > 0) {
-    console.remark(fmt::format("{} is lit by {} bands of spherical harmonics (--sh-order)",
-                               work.choice.reference, given.environment_order));
-  }
-  for (const Contender& contender : work.contenders) {
-    imageOf(work.reference.layers, both(coverageOf(contender), work.stage.in_scene), work.choice.reference);
-  }
-}
-
-}  // namespace
-
-int runCompare(CompareChoice choice, Console& console) {
+Comparison compareAll(CompareChoice choice, Console& console) {
   std::vector<Contender> contenders = choice.techniques.empty()
                                           ? allContenders(choice.options)
                                           : planContenders(choice.techniques, choice.options);
@@ -295,7 +256,7 @@ int runCompare(CompareChoice choice, Console& console) {
                   {},
                   {}};
   if (!work.choice.reference.empty())
-    checkGivenReference(work, work.choice.environment_order.has_value(), console);
+    checkGivenReference(work.reference, work.choice, work.stage, work.contenders, console);
   bakeCompareStage(work.stage, work.choice, work.contenders, console);
   haveSpheres(work, console);
   work.results.scene = work.choice.scene.name;
@@ -312,14 +273,31 @@ int runCompare(CompareChoice choice, Console& console) {
   whole.report(0.97, "page");
   writeAll(work);
   console.endProgress();
+  return work;
+}
+
+}  // namespace
+
+Json compareQuietly(CompareChoice choice, Console& console) {
+  return resultsJson(compareAll(std::move(choice), console).results);
+}
+
+int runCompare(CompareChoice choice, Console& console) {
+  const Comparison work = compareAll(std::move(choice), console);
   if (console.json) {
     console.print(jsonText(resultsJson(work.results)));
   } else {
     for (const std::string& line : resultsTable(work.results)) console.print(line);
     console.remark(fmt::format("wrote {}", work.folder.file("index.html").string()));
   }
+  for (const std::string& line : noteLines(work.results)) console.remark(line);
   if (const std::string remark = noiseRemark(work.results); !remark.empty()) console.remark(remark);
-  return kDone;
+  const double noise = work.results.reference_noise.value_or(0.0), asked = double(work.choice.noise);
+  if (asked == 0.0 || noise <= asked) return kDone;
+  console.remark(
+      fmt::format("noise is still {:.2g} % after {} paths a pixel; {:.2g} % was asked for", 100.0 * noise,
+                  countText(std::size_t(work.results.reference_samples.value_or(0))), 100.0 * asked));
+  return kBoundExceeded;
 }
 
 }  // namespace gloam::cli

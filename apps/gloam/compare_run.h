@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "json.h"
 #include "scene_inputs.h"
 #include "technique_choice.h"
 
@@ -31,5 +32,7 @@ struct CompareChoice {
 
 /// Throws Error before anything is written where the input is bad, Interrupted; what is finished then stays.
 int runCompare(CompareChoice choice, Console& console);
+/// The same without a word on standard output: what results.json has.
+Json compareQuietly(CompareChoice choice, Console& console);
 
 }  // namespace gloam::cli

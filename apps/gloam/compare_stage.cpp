@@ -47,10 +47,10 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
   stage.environment = chooseEnvironment(stage.scene, choice.light, console, choice.view.time_s);
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.camera = chooseCamera(stage.posed, choice.view, console);
+  leaveOutUnbakeable(contenders, stage.scene, stage.posed, console);
   stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage.scene, contenders));
   stage.in_scene = lightIn(stage.scene, stage.posed, stage.environment, stage.bounces);
-  const auto dark = [&](const Contender& contender) { return !lights(contender, stage.in_scene); };
-  if (choice.techniques.empty() && !std::ranges::all_of(contenders, dark)) std::erase_if(contenders, dark);
+  leaveOutDark(contenders, stage.in_scene, console);
   for (const Contender& contender : contenders) requireLight(contender, stage.in_scene);
   return stage;
 }

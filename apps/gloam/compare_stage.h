@@ -29,7 +29,8 @@ struct CompareStage {
 };
 
 /// Reads the scene and chooses light, camera and bounces; `reference_bounces` wins where a reference was given. Throws
-/// Error where a contender cannot light the scene; where nobody asked for it by name it drops out. Bakes nothing.
+/// Error where a contender cannot light the scene; where nobody asked for it by name it drops out, with a line. Bakes
+/// nothing.
 CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Contender>& contenders,
                                  std::optional<int> reference_bounces, Console& console);
 /// Bakes where a contender needs it.

@@ -11,7 +11,11 @@ namespace gloam::cli {
 void addDisplayOptions(CLI::App& app, DisplayChoice& choice) {
   const auto setExposure = [&choice](const std::string& text) {
     choice.auto_exposure = text == "auto";
-    choice.exposure_stops = text == "auto" ? 0.0f : float(parseNumber("--exposure", text, {-50.0, 50.0}));
+    try {
+      choice.exposure_stops = text == "auto" ? 0.0f : float(parseNumber("--exposure", text, {-50.0, 50.0}));
+    } catch (const Error& error) {
+      throw Error(std::string(error.what()) + ", or auto");
+    }
   };
   app.add_option_function<std::string>("--exposure", setExposure,
                                        "stops (factor 2^STOPS), or found in the first frame")

@@ -114,8 +114,8 @@ LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool vari
   }
   result.attributes = attributesOf(state, part);
   if (variance) result.attributes["gloam.noise"] = fmt::format("{:.6g}", noiseOf(sums));
-  if (const std::string text = varianceText(sums); variance && parts && !text.empty())
-    result.attributes[kPartVariance] = text;
+  const std::string covariances = variance && parts ? varianceText(sums) : "";
+  if (!covariances.empty()) result.attributes[kPartVariance] = covariances;
   return result;
 }
 

@@ -15,7 +15,7 @@ import time
 import unittest
 
 import exr
-from harness import BOX, GLOAM, CliTest
+from harness import BOX, GLOAM, CliTest, glb, moving_triangle, triangle
 
 TECHNIQUES = "irradiance,prt,prt:order=2"
 MEASURES = ["rmse", "relative_squared_error", "psnr", "ssim", "flip", "mean_signed_error"]
@@ -125,6 +125,23 @@ class Results(Compared):
                 for name in MEASURES:
                     self.assertEqual(said[name], layer[name], f"{technique['label']} {more} {name}")
 
+    def test_noise_is_that_of_the_light_that_each_is_held_to(self):
+        _, _, _, attributes = exr.read(self.shared / "out" / "reference.exr")
+        words, parts, covariances = iter(attributes["gloam.part_variance"].split()), [], {}
+        for name in words:
+            parts.append(name)
+            for other in parts:
+                covariances[name, other] = covariances[other, name] = float(next(words))
+        self.assertIn("environment_direct", parts)
+        for technique in self.results["techniques"]:
+            held_to = [part for part in parts if part in [*technique["covers"], "seen"]]
+            variance = math.fsum(covariances[a, b] for a in held_to for b in held_to)
+            width, height, truth, _ = exr.read(self.shared / "out" / technique["reference_file"])
+            squares = math.fsum(truth[c][i] ** 2 for c in "RGB" for i in range(width * height) if truth["A"][i] > 0)
+            wanted = math.sqrt(variance * 3 * width * height / squares)
+            self.assertGreater(wanted, 0)
+            self.assertAlmostEqual(technique["reference_noise"], wanted, delta=1e-4 * wanted)
+
     def test_csv_holds_the_same(self):
         with open(self.shared / "out" / "results.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -200,6 +217,50 @@ class Results(Compared):
         shutil.rmtree(self.shared / "other")
 
 
+class Lists(CliTest):
+    def test_what_deforms_altogether_is_compared_without_a_bake(self):
+        document, binary = moving_triangle()
+        document["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}]
+        document["meshes"][0]["weights"] = [0.5]
+        self.path("morph.glb").write_bytes(glb(document, binary))
+        small = ["--size", "16x16", "--spp", "2", "--frames", "1", "--env", "sky:mild", "-o", "out"]
+        answer = self.succeed("compare", "morph.glb", *small)
+        self.assertIn("left out: prt (all meshes are skinned or morphed", answer.err)
+        self.assertIn("left out: splatting (covers nothing of environment_direct", answer.err)
+        names = [technique["name"] for technique in json.loads(self.path("out/results.json").read_text(encoding="utf-8"))["techniques"]]
+        self.assertNotIn("prt", names)
+        self.assertIn("proxies", names)
+        more = json.loads(self.succeed("compare", "morph.glb", *small, "--techniques", "all,irradiance:order=2", "--json").out)
+        self.assertEqual([technique["label"] for technique in more["techniques"]], [*names, "irradiance order=2"])
+        shutil.rmtree(self.path("out"))
+        self.refuse("compare", "morph.glb", *small, "--techniques", "irradiance,prt", says="skinned or morphed")
+
+    def test_emitters_that_a_technique_cannot_see_are_named(self):
+        document, binary = triangle()
+        document["materials"] = [{"emissiveFactor": [1, 1, 1]}]
+        document["meshes"][0]["primitives"][0]["material"] = 0
+        document["nodes"][0]["name"] = "pane"
+        self.path("glow.glb").write_bytes(glb(document, binary))
+        answer = self.succeed("compare", "glow.glb", "--env", "none", "--size", "24x16", "--spp", "2", "--frames", "1",
+                              "--techniques", "spherical_lights", "-o", "out")
+        self.assertIn("spherical_lights: light of 'pane' is missing: it has no spheres", answer.err)
+
+    def test_a_folder_keeps_no_pictures_of_another_comparison(self):
+        small = ["compare", BOX, "--size", "16x12", "--env", "sky:noon", "--spp", "2", "--frames", "1", "-o", "out"]
+        self.succeed(*small, "--techniques", "irradiance,irradiance:order=2")
+        self.path("out/mine.exr").write_text("not gloam's")
+        self.succeed(*small, "--techniques", "irradiance")
+        self.assertEqual(sorted(path.name for path in self.path("out").iterdir()),
+                         ["index.html", "irradiance.exr", "mine.exr", "reference.exr", "reference_irradiance.exr", "results.csv", "results.json"])
+
+    def test_noise_that_is_not_reached_is_exit_code_1(self):
+        answer = self.gloam("compare", BOX, "--size", "16x12", "--env", "sky:noon", "--techniques", "irradiance", "--noise", "0.0001", "--spp", "4",
+                            "--frames", "1", "-o", "out")
+        self.assertEqual(answer.code, 1, str(answer))
+        self.assertIn("noise is still", answer.err)
+        self.assertTrue(self.path("out/index.html").exists())
+
+
 class Interrupted(CliTest):
     def test_what_is_finished_stays(self):
         process = subprocess.Popen([GLOAM, "compare", BOX, "--techniques", "irradiance", *VIEW, "--frames", "1", "--spp", "1000000", "-o", "out"],
@@ -246,6 +307,7 @@ class Refused(CliTest):
         for noise in "nan", "0", "-1":
             self.refused("--noise", noise, says=["--noise", noise, "expected a number above 0"])
         self.refused("--frames", "0", says="--frames")
+        self.refused("--exposure", "foo", says=["--exposure", "foo", "auto"])
 
     def test_where_to(self):
         self.path("out").write_text("a file")
@@ -300,6 +362,24 @@ class References(CliTest):
     def test_without_a_layer(self):
         self.reference(without=["direct.R", "direct.G", "direct.B"])
         self.refused(says=["truth.exr", "direct"])
+
+    def test_with_parts_but_not_their_sums(self):
+        parts = {f"{name}_{way}.{c}": 0.5 for name in ("environment", "local") for way in ("direct", "indirect") for c in "RGB"}
+        channels = {f"{prefix}{c}": 0.5 for prefix in ("", "direct.") for c in "RGB"} | {f"seen.{c}": 0.0 for c in "RGB"} | {"A": 1.0} | parts
+        exr.write(self.path("truth.exr"), 8, 6, channels, self.LIGHT | {"gloam.light": "environment_direct environment_indirect local_direct local_indirect"})
+        self.refused(says=["truth.exr", "indirect"])
+
+    def test_with_attributes_that_cannot_be(self):
+        for name, value in ("gloam.bounces", "many"), ("gloam.bounces", "-1"), ("gloam.environment_order", "7"), ("gloam.supersample", "0"), \
+                ("gloam.background", "yes"), ("gloam.noise", "-1"), ("gloam.samples", "1e3"), ("gloam.size", "16x6"):
+            self.reference(attributes=self.LIGHT | {name: value})
+            self.refused(says=["truth.exr", f"attribute {name}", value])
+
+    def test_by_another_tracer_is_taken_with_a_line(self):
+        self.reference(attributes=self.LIGHT | {"gloam.light": "environment_direct local_direct", "gloam.version": "0.0.1"})
+        answer = self.succeed("compare", BOX, "--env", "sky:noon", "--techniques", "irradiance", "--frames", "1", "--reference", "truth.exr",
+                              "-o", "out")
+        self.assertIn("truth.exr was traced by gloam 0.0.1", answer.err)
 
     def test_without_the_light_that_is_covered(self):
         self.reference(attributes=self.LIGHT | {"gloam.light": "local_direct"})

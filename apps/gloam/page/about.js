@@ -1,12 +1,11 @@
 // Head of the page, and its end: what was compared, and the commands that repeat it.
 
-/// As the terminal's remark: errors that are noise to a good part. The noise is that of all light: where a technique covers
-/// less, its own is rather more.
+/// As the terminal's remark: errors that are to a good part the noise of the light that a technique is held to.
 function noiseSentence(ranked) {
-  const noise = results.reference.relative_noise;
-  const hidden = ranked.filter(({error}) => noise !== null && Math.sqrt(error) < 1.5 * noise);
+  const hidden = ranked.filter(({technique, error}) => technique.reference_noise !== null && Math.sqrt(error) < 1.5 * technique.reference_noise);
   if (hidden.length === 0) return '';
-  return ` The reference’s own noise is ${percent(noise)}, with ${hidden.map(({technique}) => technique.label).join(', ')} not clearly off by more: a reference of more samples tells more.`;
+  const said = hidden.map(({technique}) => `${technique.label} (${percent(technique.reference_noise)})`).join(', ');
+  return ` Not clearly off by more than the noise of what ${hidden.length === 1 ? 'it is' : 'they are'} held to: ${said}; a reference of more samples tells more.`;
 }
 
 function sentence() {
@@ -43,7 +42,7 @@ function buildAbout() {
   const about = byId('about');
   about.append(make('p', {}, 'Each technique is held against a path-traced reference of the same scene, camera, light and materials that holds only the light '
     + 'which the technique covers. The light behind the scene is left out of pictures and measures.'));
-  const facts = [['scene', results.scene], ...(results.environment ? [['light', results.environment]] : []), ['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light: less is chance`]] : []),
+  const facts = [['scene', results.scene], ...(results.environment ? [['light', results.environment]] : []), ['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light; that of what each technique is held to is dashed in the plot`]] : []),
     ...(results.environment_order > 0 ? [['its light', `the environment’s projection to ${results.environment_order} bands of spherical harmonics`]] : []),
     ['page', page.shrink > 1 ? `pictures here at 1/${page.shrink} of their size; all measures are of the full size` : 'pictures in full size, linear half floats'],
     ['gloam', results.version]];
