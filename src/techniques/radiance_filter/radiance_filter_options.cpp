@@ -30,6 +30,11 @@ const std::vector<Option>& options() {
        .minimum = 0,
        .maximum = 4096,
        .help = "virtual lights a set on lit surfaces, of all bounces together"},
+      {.name = "candidates",
+       .default_value = 1,
+       .minimum = 1,
+       .maximum = 64,
+       .help = "times as many are made, and those kept that add most to what the camera sees"},
       {.name = "bounces",
        .default_value = 1,
        .minimum = 0,
@@ -146,7 +151,8 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
                 .direct = settings.integer("direct"),
                 .indirect = settings.integer("bounces") > 0 ? settings.integer("indirect") : 0,
                 .bounces = settings.integer("bounces"),
-                .most_lamps = plan.lamps_in_field ? vpls::WalkOptions{}.most_lamps : 0};
+                .most_lamps = plan.lamps_in_field ? vpls::WalkOptions{}.most_lamps : 0,
+                .candidates = settings.integer("candidates")};
   const bool direct = plan.walks.direct > 0 || plan.lamps_in_field, indirect = plan.walks.indirect > 0;
   if (direct && indirect && settings.flag("apart"))
     plan.parts = {frame::Path::kDirect, frame::Path::kIndirect};
