@@ -4,6 +4,7 @@
 // gloam bench: how long the passes of a technique take.
 #include <fmt/core.h>
 
+#include "bench_figures.h"
 #include "bench_paper.h"
 #include "bench_scaling.h"
 #include "bench_stage.h"
@@ -80,6 +81,7 @@ void chooseDefaults(BenchChoice& choice, const CLI::App& app) {
     if (app.get_option("--size")->empty()) choice.view.size = {192, 144};
     return;
   }
+  if (!choice.figures.empty() && app.get_option("--size")->empty()) choice.view.size = {320, 320};
   if ((choice.paper || choice.scaling) && app.get_option("--size")->empty()) choice.view.size = {1024, 1024};
 }
 
@@ -94,6 +96,9 @@ int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
   if (!choice.output.empty() && !choice.paper && !choice.scaling)
     throw Error("--output", "is a plot, which --paper and --scaling draw");
   if (suite != nullptr) refuseUnused(*suite, app);
+  if (!choice.figures.empty() && (choice.paper || choice.scaling || !app.get_option("SCENE")->empty()))
+    throw Error("--figures", "draws scenes of its own, and not beside --paper or --scaling");
+  if (!choice.figures.empty()) return benchFigures(choice, console);
   if (choice.paper) return benchPaper(choice, console);
   if (choice.scaling) return benchScaling(choice, console);
   return suite != nullptr ? suite->run(choice, console) : benchTechnique(choice, console);
@@ -122,6 +127,10 @@ std::function<int()> declareBench(CLI::App& app, Console& console) {
                fmt::format("the figures of the technique's paper, ours beside theirs ({})",
                            listed(techniquesWithPaper())));
   app.add_flag("--scaling", choice->scaling, "time over the number of spheres, 10 to 2,000 (proxies)");
+  app.add_option(
+         "--figures", choice->figures,
+         "a folder: the experiments of the paper against the reference, with pictures (spherical_lights)")
+      ->type_name("DIR");
   addOutput(app, choice->output, "FILE", "plot of --paper or --scaling: x.svg or x.csv");
   addDeviceOption(app, choice->device);
   addLightOptions(app, choice->light);
@@ -142,6 +151,7 @@ const Verb kBenchVerb = {
     "gloam bench prt builtin:cornell --size 1024x1024 | medians and 95th percentiles of each pass\n"
     "gloam bench irradiance model.glb --env probe.exr --frames 50 --json | for programs\n"
     "gloam bench proxies --paper -o operators.svg | the paper's figures, ours beside them; a plot\n"
+    "gloam bench spherical_lights --figures figures | the experiments of the paper, errors and differences\n"
     "gloam bench sh | spherical harmonics: nanoseconds an operation, one thread\n"
     "gloam bench bake bunny.obj | the baker's rays a second beside those of the tracing library alone\n"
     "gloam bench gloss builtin:bronze --env sky:mild | shadowed gloss against plain integrals\n",

@@ -26,7 +26,8 @@ struct BenchChoice {
   std::string device;
   int frames = 20;
   bool paper = false, scaling = false;
-  std::string output;  ///< of a plot
+  std::string output;   ///< of a plot
+  std::string figures;  ///< a folder: the paper's experiments against the reference
 };
 
 /// A technique made ready to draw.
