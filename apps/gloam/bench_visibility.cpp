@@ -211,7 +211,7 @@ int benchVisibility(const BenchChoice& choice, Console& console) {
   const PosedCamera camera = chooseCamera(posed, choice.view, console);
   console.release();
   Stage stage(choice.device);
-  stage.prepare(scene, environment, posed, camera, choice.view.size);
+  stage.prepare(scene, environment, posed, camera, choice.view.size * choice.view.supersample);
   const visibility::WorldTracer& tracer = stage.sight.world().tracer();
   Measured m{.triangles = tracer.triangleCount(), .points = stage.points.size()};
   measureHost(stage, tracer, m);

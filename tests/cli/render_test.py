@@ -237,6 +237,17 @@ class Bench(CliTest):
         self.assertLess(result["rows"][0]["truncation"], result["rows"][3]["truncation"])
         self.refuse("bench", "gloss", BOX, "--env", "none", says="bench gloss")
 
+    def test_rays_to_virtual_lights_are_counted_alike(self):
+        result = self.succeed_json("bench", "visibility", BOX, "--size", "24", "--supersample", "2")
+        self.assertEqual((result["scene"], result["points"], result["sets"]), (BOX, 48 * 48, 64))
+        self.assertGreater(result["rays"], 1000)
+        self.assertTrue(0.0 < result["open"] < 1.0, result)
+        self.assertLess(result["differing"], 1e-3)
+        for key in ("bare_mrays_s", "host_mrays_s", "device_mrays_s", "ratio", "walks_ms"):
+            self.assertGreater(result[key], 0.0, key)
+        self.refuse("bench", "visibility", BOX, "--light", "constant?radiance=0", "--eye", "9,9,30", "--target", "9,9,60",
+                    says="bench visibility")
+
     def test_what_means_nothing_is_refused(self):
         for subject, option, value in (("reference", "--frames", "3"), ("reference", "--device", "0"), ("bake", "--size", "16"),
                                        ("bake", "--env", "none"), ("relight", "--fov", "30"), ("sh", "--size", "16")):
