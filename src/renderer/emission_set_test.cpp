@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "golden.h"
+#include "renderer/flat_patches.h"
 #include "scene/builtin_shapes.h"
 #include "scene/scene_builder.h"
 
@@ -58,6 +59,87 @@ TEST(EmissionSet, SamplesGoWithTheirObject) {
   EXPECT_EQ(now.meets[0], 3u);  // both, and itself
   EXPECT_EQ(now.proxies[1].first, 0);
   EXPECT_EQ(now.proxies[1].count, 2);
+}
+
+// A cylinder that bends: each sample is a point of the deformed surface, its normal unit and outward.
+TEST(EmissionSet, SamplesGoWithSkins) {
+  const Scene scene = loadScene("builtin:bend?angle=120&detail=0.4");
+  SceneSpheres spheres;
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    if (scene.nodes[n].meshes.empty()) continue;
+    SphereSet& set = spheres.sets.emplace_back();
+    set.meshes = scene.nodes[n].meshes;
+    set.nodes = {int(n)};
+    if (scene.nodes[n].name != "cylinder") {
+      set.receive_only = "flat";
+      continue;
+    }
+    for (int i = 0; i < 6; ++i) set.spheres.push_back({{0.4f * float(i) - 1.0f, 0, 0}, 0.32f});
+  }
+  std::vector<std::vector<float>> shares;
+  for (const SphereSet& set : spheres.sets) shares.emplace_back(set.spheres.size(), 1.0f);
+  const EmissionSet set(scene, spheres, sampleEmission(scene, spheres), shares);
+  const PosedScene bent = pose(scene, 2.0f);
+  const Instance* skin = nullptr;
+  for (const Instance& instance : bent.instances) {
+    if (instance.deformed()) skin = &instance;
+  }
+  ASSERT_NE(skin, nullptr);
+  const frame::Emission emission = set.posed(bent, poseSpheres(spheres, scene, bent));
+  ASSERT_EQ(emission.points.size(), 6u * kEmissionDirections);
+  int sending = 0;
+  for (std::size_t i = 0; i < emission.points.size(); ++i) {
+    const frame::EmissionPoint& point = emission.points[i];
+    if (point.sends == 0.0f) continue;
+    ++sending;
+    float nearest = INFINITY;
+    std::size_t at = 0;
+    for (std::size_t v = 0; v < skin->deformed_positions.size(); ++v) {
+      const float far = glm::distance(point.position, skin->deformed_positions[v]);
+      if (far < nearest) nearest = far, at = v;
+    }
+    EXPECT_LT(nearest, 0.12f) << "it lies on the surface";
+    EXPECT_NEAR(glm::length(point.normal), 1.0f, 1e-3f);
+    EXPECT_GT(glm::dot(point.normal, skin->deformed_normals[at]), 0.3f);
+  }
+  EXPECT_GT(sending, 200);
+}
+
+// Twice as wide as high: samples lie on the stretched surface with the normals that it has there.
+TEST(EmissionSet, SamplesGoWithANonUniformScale) {
+  Scene scene = ballOverGround();
+  const SceneSpheres spheres = spheresOf(scene);
+  const SceneEmission emission = sampleEmission(scene, spheres);
+  const EmissionSet set(scene, spheres, emission, {{1.0f, 1.0f}, {}});
+  scene.nodes[0].scale = {2.0f, 1.0f, 1.0f};
+  const PosedScene posed = pose(scene, 0.0f);
+  const frame::Emission now = set.posed(posed, poseSpheres(spheres, scene, posed));
+  for (const frame::EmissionPoint& point : now.points) {
+    if (point.sends == 0.0f) continue;
+    const glm::vec3 p = point.position * glm::vec3(0.5f, 1.0f, 1.0f);
+    EXPECT_NEAR(glm::length(p), 1.0f, 0.03f);
+    const glm::vec3 outward = glm::normalize(p * glm::vec3(0.5f, 1.0f, 1.0f));
+    EXPECT_GT(glm::dot(point.normal, outward), 0.99f);
+  }
+}
+
+// The upper and the lower side of a thin slab block once.
+TEST(EmissionSet, ThinThingsBlockAsOneSide) {
+  SceneBuilder builder("slab");
+  builder.place("slab", shapes::box({-4, -0.05f, -4}, {4, 0.05f, 4}, 1.0f),
+                builder.diffuse("grey", glm::vec3(0.5f)));
+  const Scene scene = builder.finish();
+  SceneSpheres spheres;
+  spheres.sets.resize(1);
+  spheres.sets[0].meshes = scene.nodes[0].meshes;
+  spheres.sets[0].nodes = {0};
+  spheres.sets[0].receive_only = "flat";
+  const PosedScene posed = pose(scene, 0.0f);
+  float area = 0.0f;
+  for (const frame::Patch& patch : FlatPatches(scene, spheres, 0, kBlockingPatches).blockers(posed)) {
+    if (std::abs(patch.normal.y) > 0.9f) area += 4.0f * glm::length(glm::cross(patch.half_u, patch.half_v));
+  }
+  EXPECT_NEAR(area, 64.0f, 3.0f);
 }
 
 TEST(EmissionSet, GroundBecomesRectanglesOfItsArea) {

@@ -63,6 +63,11 @@ vec4 discWeights(float a) {
   return 3.14159265 * a2 * vec4(2.0 / (1.0 + c), 1.0, c, 0.25 * (5.0 * c2 - 1.0));
 }
 
+/// Irradiance of a disc of radiance 1 that lies above the tangent plane, as seenSphere leaves it.
+float irradianceOfDisc(SeenSphere seen, vec3 normal) {
+  return 3.14159265 * seen.sin_half_angle * seen.sin_half_angle * max(0.0, dot(seen.direction, normal));
+}
+
 /// Legendre's P_0 to P_3, times (2 l + 1) / 4 pi: what a zonal function has at that cosine from its axis.
 vec4 zonalAt(float x) {
   return vec4(0.0795774715, 0.238732415 * x, 0.397887358 * (1.5 * x * x - 0.5), 0.557042301 * x * (2.5 * x * x - 1.5));

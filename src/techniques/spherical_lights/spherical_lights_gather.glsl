@@ -129,14 +129,14 @@ Gathered gather(vec3 position, vec3 normal) {
       float share = visibility_kind == kDifference ? clear - behind : dotOf(scaled(y, disc), seen_through);
       if (visibility_kind == kMean) {
         float mean_log = dotOf(scaled(y, disc), blockers) / max(disc.x, 1e-12);
-        share = exp(min(mean_log, 0.0)) * dotOf(scaled(y, disc), cosine);
+        share = exp(min(mean_log, 0.0)) * irradianceOfDisc(seen, normal);
       }
       share = max(share, 0.0);
       Sh4 f = averageAt(seen.sin_half_angle, y);
       if (has_indirect) {
         vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
         got.indirect += radiance * share;
-        got.unblocked += radiance * max(0.0, dotOf(scaled(y, disc), cosine));
+        got.unblocked += radiance * irradianceOfDisc(seen, normal);
       }
       if (glows) glowing += GLOAM_RADIANCE(glow.at[i]) * share;
     }

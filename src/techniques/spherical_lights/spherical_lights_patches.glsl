@@ -8,6 +8,12 @@
 #include "frame/patch.glsl"
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 
+/// 0 where a patch lies below the tangent plane: the rim of a plinth does not stand before its top.
+float aboveTangent(PatchRow row, vec3 position, vec3 normal) {
+  float top = dot(row.center - position, normal) + abs(dot(row.half_u, normal)) + abs(dot(row.half_v, normal));
+  return smoothstep(0.0, 0.05, top / length(row.half_u + row.half_v));
+}
+
 /// Logs of what patches leave visible.
 /// `whole`: of all that the cones cover, not only above the tangent plane.
 Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
@@ -15,8 +21,9 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   whole = kNothing;
   for (uint j = 0u; j < push.params.blocking_patches; ++j) {
     PatchCone cone = patchCone(blocking_patches.at[j], position, normal);
+    float above = aboveTangent(blocking_patches.at[j], position, normal);
     SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle);
-    sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * cone.there));
+    sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * (cone.there * above)));
     whole = plus(whole, scaled(basisAt(cone.direction), logWeights(cone.sin_half_angle) * cone.there));
   }
   return sum;

@@ -110,6 +110,14 @@ TEST(SphericalLightsPreparation, AlbedoIsThatOfEachSide) {
   EXPECT_GT(sh::valueAt(sphere.albedo, {-1, 0, 0}).x, 2.0f * sh::valueAt(sphere.albedo, {-1, 0, 0}).z);
 }
 
+// A mirror sends light on as well; four bands cannot tell where to, so it counts as diffuse.
+TEST(SphericalLightsPreparation, MetalSendsAsIfDiffuse) {
+  Scene scene = sceneOf({{shapes::icosphere(1.0f, 8), glm::vec3(0.6f)}});
+  scene.materials[0].metallic = 1.0f;
+  const SceneEmission emission = sampleEmission(scene, spheresOf(scene, {{{0, 0, 0}, 1.0f}}));
+  EXPECT_NEAR(emission.sets[0].spheres[0].albedo[0].x, 0.6f * sh::zonalFactor(0), 1e-3f);
+}
+
 TEST(SphericalLightsPreparation, InsideOutAndSheetsAreLitOutside) {
   Mesh ball = shapes::icosphere(1.0f, 8);
   for (std::size_t t = 0; t + 2 < ball.indices.size(); t += 3)

@@ -77,8 +77,7 @@ Gathered receive(vec3 position, vec3 normal) {
       Sh4 y = basisAt(seen.direction);
       float within = logListed(position, normal, i, seen.direction, bands);
       float log_before = dotOf(scaled(y, bands), before) + (blocking == kPerObject ? within : -within);
-      // Of the disc alone, against the clamped cosine.
-      float open = max(0.0, dot(disc * vec4(kShCosine0, kShCosine1, kShCosine2, 0.0), zonalAt(dot(seen.direction, normal))));
+      float open = irradianceOfDisc(seen, normal);
       float share = open * exp(min(log_before, 0.0));
       Sh4 f = averageAt(seen.sin_half_angle, y);
       if (has_indirect) {

@@ -247,6 +247,119 @@ TEST(SphericalLights, GroundSendsItsLight) {
   EXPECT_LT(picture.direct[4 * middle], 0.1f);  // the sky below is behind the ground
 }
 
+// More objects than the kernel once kept: the quick kernel, per object and per sphere, against sums written out.
+TEST(SphericalLights, ManyObjectsAgreeWithTheirTwins) {
+  const Scene scene = frame::planeScene("preetham?elevation=35");
+  std::vector<Balls::Ball> crowd;
+  for (int i = 0; i < 36; ++i) {
+    const auto x = float(i % 6), z = float(i / 6);
+    crowd.push_back({{1.1f * x - 2.7f, 0.6f + 0.3f * float((i * 7) % 5), 1.1f * z - 2.7f},
+                     0.3f + 0.02f * float(i % 4),
+                     {0.2f + 0.1f * x, 0.5f, 0.9f - 0.1f * z},
+                     i});
+  }
+  // The last five are one chain.
+  for (std::size_t i = 31; i < crowd.size(); ++i) crowd[i].object = 31, crowd[i].radius = 0.6f;
+  const Balls balls(crowd);
+  Rows rows = rowsOf(balls.proxies, balls.emission);
+  addPatchPoints(rows);
+  const Twin twin(rows, projectEnvironment(scene.environment, 6), Average::kSolidAngle, kPerObject, kMean);
+  for (const char* blocking : {"per_object", "per_sphere"}) {
+    const Picture picture = draw(scene, frame::kAbove, balls, {{"blocking", blocking}});
+    const int mode = blocking == std::string("per_object") ? kPerObject : kPerSphereReused;
+    for (std::size_t i = 30; i < picture.pixels(); i += 97) {
+      const TwinLight want =
+          twin.at(Picture::at(picture.position, i), Picture::at(picture.normal, i), mode, kMean);
+      const glm::vec3 got = Picture::at(picture.indirect, i);
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(got[c], want.indirect[c], 2e-3f * want.direct[c] + 1e-4f) << blocking;
+    }
+  }
+}
+
+/// A picture at full size, two ways of asking for it.
+std::vector<float> fullDirect(const Scene& scene, const PosedCamera& camera, const Balls& balls,
+                              const char* divisor, const char* repair) {
+  frame::TestFrame frame(scene);
+  SphericalLights technique(gpu::testDevice());
+  Settings settings(info().options);
+  settings.set("divisor", divisor);
+  settings.set("repair", repair);
+  frame.draw(pose(scene, 0.0f), camera,
+             {.width = 96, .height = 96, .proxies = balls.proxies, .emission = &balls.emission},
+             [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+               return technique.record(graph, inputs, settings);
+             });
+  return frame.floats(divisor == std::string("1")     ? "spherical_lights.direct"
+                      : repair == std::string("true") ? "spherical_lights.direct_full"
+                                                      : "frame.irradiance_direct_0");
+}
+
+// A wall whose foot is darker than its receivers can tell, balls with silhouettes before it.
+TEST(SphericalLights, CreasesAreLitFromScratch) {
+  SceneBuilder builder("corner");
+  const int grey = builder.diffuse("grey", glm::vec3(0.5f));
+  builder.place("ground", shapes::ground(12, 12, 1, 1), grey);
+  builder.place("wall", shapes::box({-6, 0, -2.3f}, {6, 3, -1.7f}, 1.0f), grey);
+  builder.place("ball", shapes::moved(shapes::icosphere(0.7f, 16), {0.4f, 0.7f, 0}), grey);
+  builder.sky("preetham?elevation=35");
+  const Scene scene = builder.finish();
+  Balls balls({{{0.4f, 0.7f, 0}, 0.7f, glm::vec3(0.5f), 0}});
+  balls.emission.blocking_patches = {{{0, 0, 0}, {6, 0, 0}, {0, 0, -6}, {0, 1, 0}, glm::vec3(0.5f)},
+                                     {{0, 1.5f, -1.7f}, {6, 0, 0}, {0, 1.5f, 0}, {0, 0, 1}, glm::vec3(0.5f)}};
+  const PosedCamera camera = frame::cameraAt({2.5f, 3, 7}, {0, 0.6f, -1}, 36);
+  const std::vector<float> truth = fullDirect(scene, camera, balls, "1", "true");
+  const auto errorOf = [&](const char* repair) {
+    const std::vector<float> got = fullDirect(scene, camera, balls, "4", repair);
+    double wrong = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (i % 4 == 3) continue;
+      wrong += double(got[i] - truth[i]) * double(got[i] - truth[i]),
+          all += double(truth[i]) * double(truth[i]);
+    }
+    return wrong / all;
+  };
+  EXPECT_LT(errorOf("true"), 0.5 * errorOf("false"));
+  EXPECT_LT(errorOf("true"), 1e-3);
+}
+
+/// The plane with one point lamp of 10 W/sr above it.
+Scene lampScene(const glm::vec3& place) {
+  SceneBuilder builder("lamp");
+  builder.place("ground", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)));
+  Light lamp;
+  lamp.intensity = glm::vec3(10.0f);
+  builder.light(lamp, place);
+  return builder.finish();
+}
+
+// SL-9: I cos / d^2 below it; a ball between takes it away; within a ball it is told.
+TEST(SphericalLights, LampsOfARadiusAreBalls) {
+  const Scene scene = lampScene({0, 2.5f, 0});
+  const Values balls_of_light = {{"lamp_radius", "0.2"}};
+  const std::size_t middle = (kSize / 2) * kSize + kSize / 2;
+  const Picture open = draw(scene, frame::kAbove, Balls({}), balls_of_light);
+  EXPECT_NEAR(open.direct[4 * middle], 10.0f / (2.5f * 2.5f), 0.03f);
+  EXPECT_TRUE(open.warnings.empty());
+  const Balls between({{{0, 1.2f, 0}, 0.5f, glm::vec3(0.2f), 0}});
+  const Picture shaded = draw(scene, frame::kAbove, between, balls_of_light);
+  EXPECT_LT(shaded.direct[4 * middle], 0.5f * open.direct[4 * middle]);
+  EXPECT_NEAR(shaded.direct[0], open.direct[0], 0.1f * open.direct[0]) << "the corner sees it";
+  const Balls round({{{0, 2.4f, 0}, 0.5f, glm::vec3(0.2f), 0}});
+  const Picture hidden = draw(scene, frame::kAbove, round, balls_of_light);
+  ASSERT_EQ(hidden.warnings.size(), 1u);
+  EXPECT_NE(hidden.warnings[0].find("within"), std::string::npos);
+  // Of radius 0 it stays a point with a shadow map, which frame/ shades: nothing of it here.
+  EXPECT_EQ(draw(scene, frame::kAbove, Balls({}), {{"lamp_radius", "0"}}).direct[4 * middle], 0.0f);
+}
+
+TEST(SphericalLights, ValuesOutOfRangeAreRefused) {
+  Settings settings(info().options);
+  EXPECT_THROW(settings.set("spheres", "5000"), Error);
+  EXPECT_THROW(settings.set("lamp_radius", "-1"), Error);
+  EXPECT_THROW(settings.set("blocking", "per_atom"), Error);
+}
+
 TEST(SphericalLights, WithoutEmissionIsAnError) {
   const Scene scene = frame::planeScene("uniform");
   frame::TestFrame frame(scene);

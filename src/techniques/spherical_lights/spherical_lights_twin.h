@@ -84,7 +84,8 @@ class Twin {
       const sh::Sh disc = sh::disc(4, seen.direction, std::asin(seen.sin_half_angle));
       if (visibility == kMean) {
         const float mean = sh::dot(before, disc) / (disc[0] * sh::zonalFactor(0));
-        share = std::exp(std::min(0.0f, mean)) * sh::dot(disc, cosine);
+        share = std::exp(std::min(0.0f, mean)) * 3.14159265f * seen.sin_half_angle * seen.sin_half_angle *
+                std::max(0.0f, glm::dot(seen.direction, n));
       } else if (visibility == kDifference) {
         sh::Sh behind = before;
         behind += logOf(p, n, i);
@@ -151,15 +152,17 @@ class Twin {
       const float there = 1.0f + own * (smooth(step) - 1.0f);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
-      const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone) {
+      const float top =
+          glm::dot(row.center - p, n) + std::abs(glm::dot(row.half_u, n)) + std::abs(glm::dot(row.half_v, n));
+      const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone, float counts) {
         const sh::Sh y = sh::evaluate(4, cone.direction);
-        const glm::vec4 weights = there * logFitted(logs_, cone.sin_half_angle);
+        const glm::vec4 weights = counts * there * logFitted(logs_, cone.sin_half_angle);
         for (int l = 0; l < 4; ++l) {
           for (int c = l * l; c < (l + 1) * (l + 1); ++c) sum[c] += weights[l] * y[c];
         }
       };
-      add(logs, seen);
-      add(whole, {std::sqrt(std::min(1.0f, size / 3.14159265f)), toward / size});
+      add(logs, seen, smooth(top / scale / 0.05f));
+      add(whole, {std::sqrt(std::min(1.0f, size / 3.14159265f)), toward / size}, 1.0f);
     }
     const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(whole), cosine));
     if (white > 1e-9f) sent += arriving * std::min(1.0f, std::max(0.0f, taken) / white);
