@@ -200,7 +200,9 @@ constexpr Row kRadianceFilter[] = {
      "radiance_filter: FieldAndShadingAreTheirEquations; math: Brdf"},
     {"RF-6", "Normal maps stay crisp under the filter; the classical irradiance filter stays for comparison",
      kYes, "", "gloam bench radiance_filter --paper", "radiance_filter: NormalMapsStayCrisp"},
-    {"RF-7", "Beyond: virtual lights chosen by what the camera sees"},
+    {"RF-7", "Beyond: virtual lights chosen by what the camera sees", kYes, "",
+     "gloam render builtin:shadow --env sky:mild --technique radiance_filter --radiance_filter.candidates 4",
+     "vpls: Walks"},
     {"RF-8", "Beyond: reuse over time without ghosts"},
     {"RF-9", "Beyond: the energy that a distance bound takes is given back"},
 };
