@@ -33,7 +33,7 @@ void CompareFolder::make() const {
   if (error) throw Error(path_.string(), fmt::format("cannot make this folder: {}", error.message()));
 }
 
-void CompareFolder::removeStale(const std::vector<fs::path>& kept, const fs::path& used) const {
+void CompareFolder::removeStale(const std::vector<fs::path>& kept) const {
   std::ifstream stream(file("results.json"));
   const Json before = Json::parse(stream, nullptr, false);
   if (!before.is_object() || !before.contains("techniques") || !before["techniques"].is_array()) return;
@@ -46,7 +46,7 @@ void CompareFolder::removeStale(const std::vector<fs::path>& kept, const fs::pat
       const fs::path old = file(name.string());
       std::error_code ignored;
       const auto same = [&](const fs::path& other) { return fs::equivalent(old, other, ignored); };
-      if (std::ranges::any_of(kept, same) || (!used.empty() && same(used))) continue;
+      if (std::ranges::any_of(kept, same)) continue;
       if (fs::is_regular_file(fs::symlink_status(old, ignored))) fs::remove(old, ignored);
     }
   }

@@ -17,8 +17,8 @@ class CompareFolder {
   void make() const;
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
-  /// Removes pictures that results.json of an earlier comparison here lists and that are neither among `kept` nor `file`.
-  void removeStale(const std::vector<std::filesystem::path>& kept, const std::filesystem::path& file) const;
+  /// Removes pictures that results.json of an earlier comparison here lists and that are not among `kept`.
+  void removeStale(const std::vector<std::filesystem::path>& kept) const;
   /// Whole or not at all.
   void writeText(const std::string& name, const std::string& text) const;
 

@@ -93,9 +93,8 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
   const double count = double(work.contenders.size());
   for (std::size_t i = 0; i < work.contenders.size(); ++i) {
     const Contender& contender = work.contenders[i];
-    const std::optional<SceneSpheres>& spheres = work.spheres[i];
-    const std::optional<SceneEmission>& emission = work.emission[i];
-    const ContenderSpheres given{spheres ? &*spheres : nullptr, emission ? &*emission : nullptr};
+    const ContenderSpheres given{work.spheres[i] ? &*work.spheres[i] : nullptr,
+                                 work.emission[i] ? &*work.emission[i] : nullptr};
     Drawn drawn = drawContender(work.stage, work.choice, contender, given, background,
                                 stretch(progress, double(i) / count, double(i + 1) / count));
     work.folder.make();
@@ -202,11 +201,10 @@ void writeAll(Comparison& work) {
   work.page.coverage = work.reference.layers.image("", {"A"}, "reference");
   const float found = std::round(4.0f * autoExposureStops(meanLog2Luminance(light))) / 4.0f;
   work.page.exposure_stops = std::clamp(work.choice.exposure_stops.value_or(found), -8.0f, 8.0f);
-  std::vector<fs::path> kept;
-  for (const TechniqueResult& result : work.results.techniques) {
-    kept.push_back(result.file), kept.push_back(result.reference_file);
-  }
-  work.folder.removeStale(kept, work.choice.reference);
+  std::vector<fs::path> kept = {work.choice.reference};
+  for (const TechniqueResult& r : work.results.techniques)
+    kept.insert(kept.end(), {r.file, r.reference_file});
+  work.folder.removeStale(kept);
   work.folder.writeText("results.json", jsonText(json) + "\n");
   work.folder.writeText("results.csv", resultsCsv(work.results));
   writePage(work.page, work.folder.file("index.html"));

@@ -292,6 +292,24 @@ class Page(Compared):
         by_error = [p[0] for p in sorted(points, key=lambda p: -p[2])]
         self.assertEqual([techniques[i]["relative_squared_error"] for i in by_error], sorted(t["relative_squared_error"] for t in techniques))
 
+    def test_noise_is_each_technique_s_own(self):
+        techniques = self.results["techniques"]
+        hidden = [t for t in techniques if math.sqrt(t["relative_squared_error"]) < 1.5 * t["reference_noise"]]
+        headline = self.evaluate("document.getElementById('headline').textContent")
+        self.assertEqual("Not clearly off by more than the noise" in headline, bool(hidden), headline)
+        for technique in hidden:
+            self.assertIn(f"{technique['label']} (", headline)
+        points = self.evaluate("""[...document.querySelectorAll('#plot g[data-technique]')].map((g) =>
+            [Number(g.dataset.technique), ...['cx', 'cy'].map((a) => Number(g.querySelector('circle').getAttribute(a)))])""")
+        dashes = self.evaluate("""[...document.querySelectorAll('#plot .floor')].map((line) =>
+            [line.textContent, ...['x1', 'x2', 'y1'].map((a) => Number(line.getAttribute(a)))])""")
+        self.assertTrue(dashes)
+        for text, left, right, at in dashes:
+            [(index, _, dot)] = [p for p in points if text.startswith(f"noise of what {techniques[p[0]]['label']} is held to")]
+            self.assertTrue(left <= points[[p[0] for p in points].index(index)][1] <= right)
+            technique = techniques[index]
+            self.assertEqual(at > dot, technique["reference_noise"] < math.sqrt(technique["relative_squared_error"]))
+
     # ---- Other screens -------------------------------------------------------------------------------------------------------
 
     def test_on_a_phone(self):
