@@ -8,7 +8,6 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "techniques/radiance_filter/radiance_filter_line.glsl"
 
-layout(constant_id = 0) const int axis = 0;
 layout(constant_id = 1) const int taps = 4;
 layout(constant_id = 2) const int run = 8;
 
@@ -16,11 +15,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) readonly buffer Masks { uint at[]; } masks;
 layout(set = 0, binding = 1) uniform sampler2DArray before;
 layout(set = 0, binding = 2) uniform writeonly image2DArray after;
+layout(scalar, push_constant) uniform Push { int axis; } push;
 
 vec4 tapOr(uint mask, int tap, vec4 value, vec4 other) { return (mask & (1u << tap)) != 0u ? value : other; }
 
 void main() {
-  ivec2 size = imageSize(after).xy, first = runStart(axis, run), step = runStep(axis);
+  ivec2 size = imageSize(after).xy, first = runStart(push.axis, run), step = runStep(push.axis);
   if (any(greaterThanEqual(first, size))) return;
   int layer = int(gl_GlobalInvocationID.z);
   vec4 near[kMostNear];

@@ -10,13 +10,15 @@ namespace gloam::radiance_filter {
 namespace {
 
 /// Pixels that one invocation filters along its axis: on software drivers neighbours share what they load, GPUs have caches.
+/// All is unrolled, which takes those drivers seconds at first use if there is much of it.
 int runOf(const gpu::Device& device, int taps) {
-  return !device.info().software || taps > kMostTapsReplaced ? 1 : (taps > 8 ? 8 : 16);
+  return !device.info().software || taps > kMostTapsReplaced ? 1 : (taps > 8 ? 4 : 8);
 }
 
-FilterLimits limitsOf(const Plan& plan) {
+FilterLimits limitsOf(const Plan& plan, int axis = 0) {
   return {std::uint32_t(plan.width), std::uint32_t(plan.height),
-          plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)), plan.normal_threshold};
+          plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)), std::uint32_t(axis),
+          plan.normal_threshold};
 }
 
 template <class Pass>
@@ -36,7 +38,7 @@ struct Axis {
   /// Runs along the axis, by lines.
   void over(gpu::ComputePass& pass, int planes) const {
     const auto runs = [&](int side) { return (side + run - 1) / run; };
-    pass.specialize("axis", number).specialize("taps", taps).specialize("run", run);
+    pass.specialize("taps", taps).specialize("run", run);
     pass.dispatchOver(number == 0 ? runs(plan.width) : plan.width,
                       number == 0 ? plan.height : runs(plan.height), planes);
   }
@@ -52,11 +54,12 @@ gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& 
     const auto masks = graph.create(fmt::format("radiance_filter.masks_{}", axis == 0 ? "across" : "down"),
                                     gpu::BufferDesc{.bytes = plan.pixels() * sizeof(std::uint32_t)});
     auto& weights = graph.compute("radiance_filter.weights", radiance_filter_weights_spv);
-    way.over(readSurface(weights, inputs, plan).write("masks", masks).push(limitsOf(plan)), 1);
+    way.over(readSurface(weights, inputs, plan).write("masks", masks).push(limitsOf(plan, axis)), 1);
     auto& filter = graph.compute("radiance_filter.filter", radiance_filter_filter_spv);
     filter.read("masks", masks)
         .read("before", axis == 0 ? values : halfway)
-        .write("after", axis == 0 ? halfway : filtered);
+        .write("after", axis == 0 ? halfway : filtered)
+        .push(axis);
     way.over(filter, values.range().layers);
   }
   return filtered;

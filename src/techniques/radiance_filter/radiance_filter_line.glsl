@@ -31,10 +31,8 @@ ivec2 runStep(int axis) { return axis == 0 ? ivec2(1, 0) : ivec2(0, 1); }
 
 /// Room for all that a run looks at. Runs are written out, and loops over taps cut in two, so that indexed arrays stay in registers:
 /// software drivers unroll loops of at most 32.
-const int kMostNear = 2 * kMostTapsReplaced + 16;
-#define GLOAM_OVER_RUN(body)                                                                                            \
-  body(0) body(1) body(2) body(3) body(4) body(5) body(6) body(7) body(8) body(9) body(10) body(11) body(12) body(13)  \
-  body(14) body(15)
+const int kMostNear = 2 * kMostTapsReplaced + 8;
+#define GLOAM_OVER_RUN(body) body(0) body(1) body(2) body(3) body(4) body(5) body(6) body(7)
 #define GLOAM_OVER_NEAR(run, taps, body)                                  \
   for (int j = 0; j < min(run + reach(taps) - 1, 24); ++j) body           \
   for (int j = 24; j < run + reach(taps) - 1; ++j) body

@@ -41,6 +41,7 @@ struct FilterLimits {
   uint width;
   uint height;
   float tolerance;      // distance from the tangent plane, in footprints of a pixel
+  uint axis;            // two passes: 0 across, 1 down
   float normal_cosine;  // of shading normals; classical filter with its normal test
 };
 

@@ -8,7 +8,6 @@
 #include "frame/frame_shared.h"
 #include "techniques/radiance_filter/radiance_filter_shared.h"
 
-layout(constant_id = 1) const int axis = 0;
 layout(constant_id = 2) const int taps = 4;
 layout(constant_id = 3) const int run = 8;
 
@@ -23,6 +22,7 @@ layout(scalar, push_constant) uniform Push { FilterLimits limits; } push;
 #include "techniques/radiance_filter/radiance_filter_window.glsl"
 
 void main() {
+  int axis = int(push.limits.axis);
   ivec2 size = ivec2(push.limits.width, push.limits.height), first = runStart(axis, run), step = runStep(axis);
   if (any(greaterThanEqual(first, size))) return;
   Surface near[kMostNear];
