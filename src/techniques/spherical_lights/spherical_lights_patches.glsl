@@ -10,8 +10,9 @@
 
 /// 0 where a patch lies below the tangent plane: the rim of a plinth does not stand before its top.
 float aboveTangent(PatchRow row, vec3 position, vec3 normal) {
-  float top = dot(row.center - position, normal) + abs(dot(row.half_u, normal)) + abs(dot(row.half_v, normal));
-  return smoothstep(0.0, 0.05, top / length(row.half_u + row.half_v));
+  float extent = abs(dot(row.half_u, normal)) + abs(dot(row.half_v, normal));
+  float top = dot(row.center - position, normal) + extent;
+  return smoothstep(0.0, 0.1, top / (extent + 1e-3 * length(row.half_u + row.half_v)));
 }
 
 /// Logs of what patches leave visible.

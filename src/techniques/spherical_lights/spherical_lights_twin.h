@@ -152,8 +152,8 @@ class Twin {
       const float there = 1.0f + own * (smooth(step) - 1.0f);
       const spheres::SeenSphere seen = spheres::seenSphere(glm::vec3(0.0f), n, toward / size,
                                                            std::sqrt(std::min(1.0f, size / 3.14159265f)));
-      const float top =
-          glm::dot(row.center - p, n) + std::abs(glm::dot(row.half_u, n)) + std::abs(glm::dot(row.half_v, n));
+      const float extent = std::abs(glm::dot(row.half_u, n)) + std::abs(glm::dot(row.half_v, n));
+      const float top = (glm::dot(row.center - p, n) + extent) / (extent + 1e-3f * scale);
       const auto add = [&](sh::Sh& sum, const spheres::SeenSphere& cone, float counts) {
         const sh::Sh y = sh::evaluate(4, cone.direction);
         const glm::vec4 weights = counts * there * logFitted(logs_, cone.sin_half_angle);
@@ -161,7 +161,7 @@ class Twin {
           for (int c = l * l; c < (l + 1) * (l + 1); ++c) sum[c] += weights[l] * y[c];
         }
       };
-      add(logs, seen, smooth(top / scale / 0.05f));
+      add(logs, seen, smooth(top / 0.1f));
       add(whole, {std::sqrt(std::min(1.0f, size / 3.14159265f)), toward / size}, 1.0f);
     }
     const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(whole), cosine));
