@@ -103,7 +103,7 @@ Scene makeConference(const Detail& detail, NamedValues& values) {
         return 0.012f * smoothStep(0.0f, 0.07f, edge) +
                0.006f * std::sin(2 * kPi * 5 * u) * std::sin(2 * kPi * 5 * v);
       }));
-  builder.place("floor", shapes::withUvScale(shapes::ground(5, 7, detail(16), detail(22)), {10, 14}), floor,
+  builder.place("floor", shapes::withUvScale(shapes::ground(5, 7, detail(64), detail(88)), {10, 14}), floor,
                 {0, 0, -0.5f});
   const int white = builder.diffuse("paint", {0.72f, 0.7f, 0.66f});
   builder.place("back wall", shapes::box({-2.5f, 0, -4 - t}, {2.5f, 2.7f, -4}, cell), white);
