@@ -10,23 +10,12 @@
 #include <numeric>
 
 #include "frame/gpu_scene.h"
+#include "math/box.h"
 #include "scene/transforms.h"
 
 namespace gloam::frame {
 
 namespace {
-
-struct Box {
-  glm::vec3 low{std::numeric_limits<float>::max()}, high{-std::numeric_limits<float>::max()};
-  void add(const glm::vec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  void add(const Box& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-};
 
 Box worldBox(const Instance& instance, const GpuMesh& mesh) {
   Box box;

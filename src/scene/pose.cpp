@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "math/box.h"
 #include "scene/animation.h"
 #include "scene/deform.h"
 #include "scene/transforms.h"
@@ -24,19 +25,6 @@ struct NodeState {
   std::vector<float> morph_weights;
   bool morph_animated = false;
   glm::mat4 local() const { return matrix ? *matrix : composeTrs(trs); }
-};
-
-struct Box {
-  glm::vec3 low{std::numeric_limits<float>::infinity()};
-  glm::vec3 high{-std::numeric_limits<float>::infinity()};
-  void add(const glm::vec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  void add(const Box& box) {
-    low = glm::min(low, box.low);
-    high = glm::max(high, box.high);
-  }
 };
 
 // glTF forbids animating a node that has a matrix; where it happens the matrix is taken apart first.
@@ -201,7 +189,7 @@ PosedScene pose(const Scene& scene, float time_s) {
   for (const Instance& instance : posed.instances) {
     bounds.add(boundsOf(instance, scene.meshes[std::size_t(instance.mesh)]));
   }
-  if (bounds.low.x <= bounds.high.x) {
+  if (!bounds.empty()) {
     posed.bounds_min = bounds.low;
     posed.bounds_max = bounds.high;
   }

@@ -14,6 +14,8 @@
 #include <limits>
 #include <numeric>
 
+#include "math/box.h"
+
 namespace gloam::visibility {
 
 namespace {
@@ -22,21 +24,11 @@ constexpr int kBins = 16;
 constexpr std::size_t kParallel = 8192;  // triangles from which both halves are built at once
 constexpr double kWorn = 1.6;  // boxes so much larger than when they were built call for another tree
 
-struct Box {
-  glm::vec3 low{std::numeric_limits<float>::max()}, high{-std::numeric_limits<float>::max()};
-  void add(const glm::vec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  void add(const Box& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-  float area() const {
-    const glm::vec3 side = high - low;
-    return side.x < 0.0f ? 0.0f : side.x * side.y + side.y * side.z + side.z * side.x;
-  }
-};
+/// Half of the surface's.
+float areaOf(const Box& box) {
+  const glm::vec3 side = box.high - box.low;
+  return box.empty() ? 0.0f : side.x * side.y + side.y * side.z + side.z * side.x;
+}
 
 Box boxOf(const BoxTriangle& t) {
   Box box;
@@ -112,7 +104,7 @@ struct Builder {
       for (std::size_t b = kBins - 1; b > 0; --b) {
         right.add(bins[b]);
         right_count += counts[b];
-        right_cost[b] = right_count < 2 ? -1.0f : right.area() * float(right_count);
+        right_cost[b] = right_count < 2 ? -1.0f : areaOf(right) * float(right_count);
       }
       Box left;
       std::uint32_t left_count = 0;
@@ -120,7 +112,7 @@ struct Builder {
         left.add(bins[b]);
         left_count += counts[b];
         if (left_count < 2 || right_cost[b + 1] < 0.0f) continue;
-        const float cost = left.area() * float(left_count) + right_cost[b + 1];
+        const float cost = areaOf(left) * float(left_count) + right_cost[b + 1];
         if (cost < best) best = cost, best_axis = axis, best_bin = int(b);
       }
     }
@@ -223,7 +215,7 @@ double BoxTree::fitBoxes() {
       node.high[i] = box.high;
       all.add(box);
     }
-    sum += double(all.area());
+    sum += double(areaOf(all));
   }
   return sum;
 }

@@ -8,6 +8,7 @@
 
 #include <cstring>
 
+#include "frame/quad_lists.h"
 #include "math/sh_log_exp.h"
 #include "shaders/proxies_shaders.h"
 #include "techniques/proxies/proxies_accumulate.h"
@@ -124,14 +125,6 @@ Received recordReceivers(const Step& step, const Sums& sums) {
   return received;
 }
 
-/// A list of squares of pixels, empty.
-gpu::BufferRef emptyList(const Step& step, const std::string& name, std::uint32_t capacity) {
-  const auto list =
-      step.graph.create(name, gpu::BufferDesc{.bytes = sizeof(RepairList) + 4 * std::size_t(capacity)});
-  step.graph.clear(name, gpu::BufferRef(list).slice(0, sizeof(RepairList)), 1);
-  return list;
-}
-
 /// Receivers' fields brought to all pixels: "proxies.upsample"; beside silhouettes from more receivers, "proxies.extend"; and
 /// pixels that none fits from scratch: "proxies.repair".
 Received recordUpsampling(const Step& step, const Received& coarse) {
@@ -141,17 +134,9 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
         name, gpu::ImageDesc{.format = kHalves, .width = gbuffer.width, .height = gbuffer.height});
   };
   const Received received{{}, {}, full("proxies.direct_full"), full("proxies.indirect_full")};
-  // Of pixels between the same four receivers.
-  const auto blocks = [divisor = step.level.divisor](int pixels) {
-    return (pixels + divisor / 2 + divisor - 1) / divisor;
-  };
-  const int columns = blocks(gbuffer.width), rows = blocks(gbuffer.height);
-  const auto most = kRepairGroup * kMostGroups;
-  const std::uint32_t squares = std::uint32_t(columns) * std::uint32_t(rows) *
-                                std::uint32_t(step.level.divisor * step.level.divisor / 4);
-  const std::uint32_t capacity = std::min(squares, most), repair_capacity = std::min(2 * squares, most);
-  const gpu::BufferRef misfits = emptyList(step, "proxies.misfits", capacity),
-                       repairs = emptyList(step, "proxies.repairs", repair_capacity);
+  const frame::QuadPlan quads = frame::planQuads(gbuffer, step.level, kRepairGroup * kMostGroups);
+  const gpu::BufferRef misfits = frame::emptyQuadList(step.graph, "proxies.misfits", quads.misfits),
+                       repairs = frame::emptyQuadList(step.graph, "proxies.repairs", quads.repairs);
   const gpu::ImageRef field = step.whole_field ? coarse.field : coarse.planes;
   step.graph.compute("proxies.upsample", proxies_upsample_spv)
       .specialize("whole_field", step.whole_field)
@@ -165,8 +150,8 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .readWrite("misfits", misfits)
       .write("direct_full", received.direct)
       .write("indirect_full", received.indirect)
-      .push(UpsampleParams{std::uint32_t(step.level.divisor), capacity})
-      .dispatchOver(columns, rows);
+      .push(quads.upsampleParams())
+      .dispatchOver(quads.columns, quads.rows);
   step.graph.compute("proxies.extend", proxies_extend_spv)
       .specialize("whole_field", step.whole_field)
       .read("frame_view", step.inputs.view)
@@ -180,9 +165,9 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .readWrite("repairs", repairs)
       .readWrite("direct_full", received.direct)
       .readWrite("indirect_full", received.indirect)
-      .push(ExtendParams{std::uint32_t(step.level.divisor), capacity, repair_capacity})
+      .push(quads.widenParams())
       .dispatchIndirect(misfits);
-  const RepairTiles tiles = recordRepairTiles(step, repairs, repair_capacity);
+  const RepairTiles tiles = recordRepairTiles(step, repairs, quads.repairs);
   step.graph.compute("proxies.repair", proxies_repair_spv)
       .specialize("indirect_kind", step.indirect)
       .specialize("exponential", step.exponential)
@@ -200,8 +185,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("light", step.light)
       .readWrite("direct_full", received.direct)
       .readWrite("indirect_full", received.indirect)
-      .push(RepairParams{step.params, tiles.columns, repair_capacity, std::uint32_t(step.level.divisor),
-                         step.flat_count})
+      .push(RepairParams{step.params, tiles.columns, quads.repairs, quads.divisor, step.flat_count})
       .dispatchIndirect(repairs);
   return received;
 }

@@ -36,7 +36,7 @@ struct Sums {
   gpu::ImageRef sent;            ///< indirect irradiance before normalisation; A: solid angles
 };
 
-/// Which proxies reach the pixels of a list (RepairList and at most `capacity` of them), by squares of kRepairTile pixels:
+/// Which proxies reach the pixels of a list (QuadList and at most `capacity` of them), by squares of kRepairTile pixels:
 /// "proxies.repair_bounds", "proxies.repair_tiles".
 struct RepairTiles {
   gpu::BufferRef bits;

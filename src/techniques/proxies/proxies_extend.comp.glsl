@@ -23,8 +23,8 @@ layout(set = 0, binding = 3) uniform sampler2D receiver_normal;
 layout(set = 0, binding = 4) uniform sampler2DArray field;
 layout(set = 0, binding = 5) uniform sampler2D indirect;  // A: what is left of the peak
 layout(scalar, set = 0, binding = 6) uniform LightBlock { ProxyLight row; } light;
-layout(scalar, set = 0, binding = 7) readonly buffer Misfits { RepairList list; uint at[]; } misfits;
-layout(scalar, set = 0, binding = 10) buffer Repairs { RepairList list; uint at[]; } repairs;
+layout(scalar, set = 0, binding = 7) readonly buffer Misfits { QuadList list; uint at[]; } misfits;
+layout(scalar, set = 0, binding = 10) buffer Repairs { QuadList list; uint at[]; } repairs;
 layout(set = 0, binding = 8, rgba16f) uniform image2D direct_full;  // A: how much of it is kept
 layout(set = 0, binding = 9, rgba16f) uniform image2D indirect_full;
 layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; uint repair_capacity; } push;

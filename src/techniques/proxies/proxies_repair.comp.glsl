@@ -19,7 +19,7 @@ layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D normals;
-layout(scalar, set = 0, binding = 3) readonly buffer Repairs { RepairList list; uint at[]; } repairs;
+layout(scalar, set = 0, binding = 3) readonly buffer Repairs { QuadList list; uint at[]; } repairs;
 layout(scalar, set = 0, binding = 4) readonly buffer Proxies { ProxyRow at[]; } proxies;
 layout(scalar, set = 0, binding = 11) readonly buffer Bits { uint at[]; } bits;
 layout(scalar, set = 0, binding = 12) readonly buffer Flats { PatchRow at[]; } flats;

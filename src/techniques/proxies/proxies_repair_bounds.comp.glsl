@@ -15,7 +15,7 @@ layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 4) uniform usampler2D normals;
-layout(scalar, set = 0, binding = 2) readonly buffer Repairs { RepairList list; uint at[]; } repairs;
+layout(scalar, set = 0, binding = 2) readonly buffer Repairs { QuadList list; uint at[]; } repairs;
 layout(scalar, set = 0, binding = 3) buffer Bounds { uint at[]; } bounds;
 layout(scalar, push_constant) uniform Push { uint columns; uint capacity; uint divisor; } push;
 

@@ -4,11 +4,15 @@
 #define GLOAM_PROXIES_SHARED_H
 #include "frame/light_peak_shared.h"
 #include "frame/patch_shared.h"
+#include "frame/quads_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(proxies)
 #ifdef __cplusplus
 using frame::LightPeak;
 using frame::PatchRow;
+using frame::QuadList;
+using frame::UpsampleParams;
+using frame::WidenParams;
 #endif
 
 /// Receivers of a square of that many a side share a list of proxies.
@@ -76,18 +80,6 @@ struct ShadeParams {
 };
 GLOAM_SHARED_SIZE(ShadeParams, 4)
 
-struct UpsampleParams {
-  uint divisor;
-  uint capacity;  // of the list
-};
-GLOAM_SHARED_SIZE(UpsampleParams, 8)
-struct ExtendParams {
-  uint divisor;
-  uint capacity;         // of the list that it reads
-  uint repair_capacity;  // of the list that it writes
-};
-GLOAM_SHARED_SIZE(ExtendParams, 12)
-
 /// Pixels that are computed from scratch share a list of proxies within a square of that many a side.
 GLOAM_SHARED_CONST uint kRepairTile = 32u;
 struct RepairBoundsParams {
@@ -105,16 +97,8 @@ struct RepairParams {
 };
 GLOAM_SHARED_SIZE(RepairParams, 36)
 
-/// Squares of 2 x 2 pixels that a work group looks at, and the head of their list: arguments of the dispatch, then how many there
-/// are plus one (all four begin as 1).
+/// Squares of 2 x 2 pixels of a list (QuadList, all four of it 1 at first) that a work group looks at.
 GLOAM_SHARED_CONST uint kRepairGroup = 64u;
-struct RepairList {
-  uint groups_x;
-  uint groups_y;
-  uint groups_z;
-  uint count_and_one;
-};
-GLOAM_SHARED_SIZE(RepairList, 16)
 
 struct ProxyLight {
   /// Radiance that leaves an unshadowed white diffuse sphere at a surface normal: light * cosine / pi.

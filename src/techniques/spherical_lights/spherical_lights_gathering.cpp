@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "frame/quad_lists.h"
 #include "shaders/spherical_lights_shaders.h"
 #include "techniques/spherical_lights/spherical_lights_step.h"
 
@@ -67,15 +68,6 @@ Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& point
   return got;
 }
 
-/// Of squares of 2 x 2 pixels, empty.
-gpu::BufferRef emptyList(const Step& step, const std::string& name, std::uint32_t capacity) {
-  const gpu::BufferRef list =
-      step.graph.create(name, gpu::BufferDesc{.bytes = sizeof(PixelList) + 4 * std::size_t(capacity)});
-  step.graph.clear(name, list.slice(0, 4), kPointColumns / 8);
-  step.graph.clear(name, list.slice(4, sizeof(PixelList) - 4), 1);
-  return list;
-}
-
 Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::ReceiverLevel& level,
                           const Pictures& coarse) {
   gpu::FrameGraph& graph = step.graph;
@@ -85,17 +77,12 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
   };
   const Pictures full{image("spherical_lights.direct_full", kHalves, gbuffer.width, gbuffer.height),
                       image("spherical_lights.indirect_full", kHalves, gbuffer.width, gbuffer.height)};
-  // Of pixels between the same four receivers.
-  const auto blocks = [&](int pixels) {
-    return (pixels + level.divisor / 2 + level.divisor - 1) / level.divisor;
+  const frame::QuadPlan quads = frame::planQuads(gbuffer, level, kPointColumns * std::uint32_t(kMostRows));
+  const auto empty = [&](const char* name, std::uint32_t capacity) {
+    return frame::emptyQuadList(graph, name, capacity, kPointColumns / 8);
   };
-  const int columns = blocks(gbuffer.width), rows = blocks(gbuffer.height);
-  const auto divisor = std::uint32_t(level.divisor);
-  const std::uint32_t most = kPointColumns * std::uint32_t(kMostRows);
-  const std::uint32_t squares = std::uint32_t(columns) * std::uint32_t(rows) * divisor * divisor / 4;
-  const std::uint32_t capacity = std::min(squares, most), repair_capacity = std::min(2 * squares, most);
-  const gpu::BufferRef misfits = emptyList(step, "spherical_lights.misfits", capacity),
-                       repairs = emptyList(step, "spherical_lights.repairs", repair_capacity);
+  const gpu::BufferRef misfits = empty("spherical_lights.misfits", quads.misfits),
+                       repairs = empty("spherical_lights.repairs", quads.repairs);
   graph.compute("spherical_lights.upsample", spherical_lights_upsample_spv)
       .read("frame_view", step.inputs.view)
       .read("depth", gbuffer.depth)
@@ -106,10 +93,10 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
       .readWrite("misfits", misfits)
       .write("direct_full", full.direct)
       .write("indirect_full", full.indirect)
-      .push(UpsampleParams{divisor, capacity})
-      .dispatchOver(columns, rows);
+      .push(quads.upsampleParams())
+      .dispatchOver(quads.columns, quads.rows);
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
-  const int height = int((repair_capacity + kPointRow - 1) / kPointRow) * 8;
+  const int height = int((quads.repairs + kPointRow - 1) / kPointRow) * 8;
   const Points points{image("spherical_lights.point_position", kFloats, int(kPointColumns), height),
                       image("spherical_lights.point_normal", kFloats, int(kPointColumns), height),
                       int(kPointColumns), height, repairs};
@@ -126,7 +113,7 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
       .readWrite("indirect_full", full.indirect)
       .write("point_position", points.position)
       .write("point_normal", points.normal)
-      .push(WidenParams{divisor, capacity, repair_capacity})
+      .push(quads.widenParams())
       .dispatchIndirect(misfits);
   const Pictures repaired = recordPoints(step, sent, points, "spherical_lights.point_");
   graph.compute("spherical_lights.repair", spherical_lights_repair_spv)
@@ -135,7 +122,7 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
       .read("repairs", repairs)
       .readWrite("direct_full", full.direct)
       .readWrite("indirect_full", full.indirect)
-      .push(UpsampleParams{divisor, repair_capacity})
+      .push(UpsampleParams{quads.divisor, quads.repairs})
       .dispatchIndirect(repairs);
   return full;
 }

@@ -10,7 +10,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D point_direct;
 layout(set = 0, binding = 1) uniform sampler2D point_indirect;
-layout(scalar, set = 0, binding = 2) readonly buffer Repairs { PixelList list; uint at[]; } repairs;
+layout(scalar, set = 0, binding = 2) readonly buffer Repairs { QuadList list; uint at[]; } repairs;
 layout(set = 0, binding = 3, rgba16f) uniform image2D direct_full;
 layout(set = 0, binding = 4, rgba16f) uniform image2D indirect_full;
 layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; } push;

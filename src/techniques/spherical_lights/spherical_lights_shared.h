@@ -3,10 +3,14 @@
 #ifndef GLOAM_SPHERICAL_LIGHTS_SHARED_H
 #define GLOAM_SPHERICAL_LIGHTS_SHARED_H
 #include "frame/patch_shared.h"
+#include "frame/quads_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(spherical_lights)
 #ifdef __cplusplus
 using frame::PatchRow;
+using frame::QuadList;
+using frame::UpsampleParams;
+using frame::WidenParams;
 #endif
 
 /// Of the polynomials over the coordinate of a sphere's half-angle.
@@ -72,29 +76,10 @@ GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
 /// Samples of one.
 GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 
-/// Lists of squares of 2 x 2 pixels. Their points stand in pictures of that many columns, eight rows a row of work groups; the
-/// head of a list is the arguments of a dispatch over these (8, 1, 1 at first), then how many there are plus one.
+/// Points of lists (QuadList) stand in pictures of that many columns, eight rows a row of work groups, over which the head of a list
+/// dispatches (8, 1, 1 at first).
 GLOAM_SHARED_CONST uint kPointColumns = 64u;
 GLOAM_SHARED_CONST uint kPointRow = 512u;
-struct PixelList {
-  uint groups_x;
-  uint groups_y;
-  uint groups_z;
-  uint count_and_one;
-};
-GLOAM_SHARED_SIZE(PixelList, 16)
-struct UpsampleParams {
-  uint divisor;
-  uint capacity;  // of the list
-};
-GLOAM_SHARED_SIZE(UpsampleParams, 8)
-struct WidenParams {
-  uint divisor;
-  uint capacity;         // of the list that it reads
-  uint repair_capacity;  // of the list that it writes
-};
-GLOAM_SHARED_SIZE(WidenParams, 12)
-
 struct LightRows {
   vec3 shade[144];   // Q[9 i + j]
   vec4 log_fit[20];  // 2 kFitTerms
