@@ -105,6 +105,7 @@ frame::Lighting recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& 
         .write("irradiance", irradiance)
         .write("gloss", gloss)
         .specialize("field", plan.keepsField())
+        .specialize("beams", plan.beams && plan.parts[part] == frame::Path::kDirect)
         .push(int(part))
         .dispatchOver(irradiance);
     lighting.irradiance.push_back({.image = irradiance, .path = plan.parts[part]});

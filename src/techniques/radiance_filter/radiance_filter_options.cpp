@@ -57,6 +57,11 @@ const std::vector<Option>& options() {
        .default_value = std::string("two_pass"),
        .choices = {"two_pass", "one_pass", "none"},
        .help = "across and then down, each pixel of the window, or not at all"},
+      {.name = "beams",
+       .default_value = true,
+       .help =
+           "light of each colour that comes from one or two places is shaded as sharp as it is; off: three "
+           "bands alone, as in the paper"},
       {.name = "window",
        .default_value = 1,
        .minimum = 1,
@@ -141,6 +146,7 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
     return sets * blocks;
   };
   plan.taps = {taps(plan.sets.x, width), taps(plan.sets.y, height)};
+  plan.beams = settings.flag("beams");
   plan.depth_threshold = settings.number("depth_threshold");
   plan.normal_threshold = settings.number("normal_threshold");
   plan.bound = settings.number("bound");

@@ -27,7 +27,7 @@ struct Plan {
   int width = 0, height = 0;
   glm::ivec2 sets{1}, taps{1};  ///< across, down
   float depth_threshold = 1.0f, normal_threshold = 1.0f, bound = 1.0f;
-  bool lamps_in_field = false, views = false;
+  bool lamps_in_field = false, views = false, beams = false;
   visibility::Means means = visibility::Means::kAuto;
   vpls::WalkOptions walks;
   std::vector<frame::Path> parts;  ///< one, or direct and indirect

@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// RF-5: the averaged field through the pixel's lobes, about its own normal (maps included) and mirror direction; or the averaged
-// light of the classical filter as it is.
+// RF-5: the averaged field through the pixel's lobes, about its own normal (maps included) and mirror direction, with what three
+// bands lack; or the averaged light of the classical filter as it is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,7 +10,10 @@
 #include "frame/gbuffer.glsl"
 #include "frame/view.glsl"
 #include "math/brdf.glsl"
+#include "techniques/radiance_filter/radiance_filter_beams.glsl"
 #include "techniques/radiance_filter/radiance_filter_values.glsl"
+
+layout(constant_id = 1) const bool beams = true;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 2) uniform ViewBlock { FrameView view; } frame_view;
@@ -23,6 +26,15 @@ layout(scalar, push_constant) uniform Push { int part; } push;
 
 const float kPi = 3.14159265;
 const float kLargestHalf = 65504.0;
+
+/// What three bands lack of the light of each colour.
+void addBeyond(inout vec3 to_diffuse, inout vec3 to_gloss, const vec3 light[9], vec3 normal, vec3 mirror, float n, float shown) {
+  for (int color = 0; color < 3; ++color) {
+    Beams of_color = beamsOf(light, color);
+    to_diffuse[color] += irradianceBeyond(of_color, normal);
+    to_gloss[color] += glossBeyond(of_color, n, shown, mirror);
+  }
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -38,7 +50,9 @@ void main() {
       vec3 position = ray.origin + ray.direction * eyeDepth(frame_view.view, d);
       vec3 mirror = mirrorDirection(normal, directionToEye(frame_view.view, position));
       to_diffuse = kPi * shadeLambert3(light, normal);
-      to_gloss = shadePhong3(light, mirror, min(phongExponent(texelFetch(diffuse, pixel, 0).a), kSharpestLobe));
+      float exponent = phongExponent(texelFetch(diffuse, pixel, 0).a), shown = min(exponent, kSharpestLobe);
+      to_gloss = shadePhong3(light, mirror, shown);
+      if (beams) addBeyond(to_diffuse, to_gloss, light, normal, mirror, exponent, shown);
     } else {
       readLobes(to_diffuse, to_gloss, pixel, push.part);
     }

@@ -125,6 +125,23 @@ TEST(RadianceFilter, NormalMapsStayCrisp) {
   EXPECT_LT(ours, 0.4 * classical);
 }
 
+// What three bands lack of small lamps is put back: nearer to the lobes themselves, of soft gloss and of sharp.
+TEST(RadianceFilter, HighlightsOfSmallLampsAreAsSharpAsTheyAre) {
+  for (const char* scene : {"builtin:bumps?detail=0.5", "builtin:bumps?detail=0.5&roughness=0.5"}) {
+    const auto with = [&](const char* mode, const char* beams) {
+      return draw(loadScene(scene), {{"mode", mode}, {"beams", beams}, {"indirect", "0"}}, 96, 72);
+    };
+    const Picture exact = with("brute_exact", "off"), three = with("brute", "off"),
+                  ours = with("brute", "on");
+    EXPECT_LT(relativeError(ours.gloss, exact.gloss, exact),
+              0.35 * relativeError(three.gloss, exact.gloss, exact))
+        << scene;
+    EXPECT_LT(relativeError(ours.direct, exact.direct, exact),
+              0.5 * relativeError(three.direct, exact.direct, exact))
+        << scene;
+  }
+}
+
 TEST(RadianceFilter, LightApartOrTogetherIsTheSame) {
   const Scene scene = loadScene("builtin:cornell?detail=0.3");
   const Picture apart = draw(scene, {}, 60, 40), together = draw(scene, {{"apart", "off"}}, 60, 40);

@@ -171,6 +171,7 @@ TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
   Settings settings(info().options);
   settings.set("sets", "2");
   settings.set("filter", "none");
+  settings.set("beams", "off");
   settings.set("apart", "off");
   frame.draw(posed, posed.cameras.at(0), {.width = 40, .height = 30},
              [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
