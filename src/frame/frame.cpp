@@ -46,7 +46,8 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
   // The technique: receivers as it asks for them, then irradiance and fields.
   Receivers receivers(graph, gbuffer, view_buffer);
   const FrameInputs inputs{scene,       gbuffer,  receivers,       shadow_maps,      environment,
-                           view_buffer, warnings, options.proxies, options.emission, options.flats};
+                           view_buffer, warnings, options.proxies, options.emission, options.flats,
+                           options.show};
   const Lighting lighting = technique(graph, inputs);
 
   // Light becomes colour, samples become pixels.

@@ -22,6 +22,7 @@ struct FrameOptions {
   std::span<const Proxy> proxies = {};  ///< for techniques that take spheres in place of what moves
   const Emission* emission = nullptr;   ///< what these send
   std::span<const Patch> flats = {};    ///< what has none, as blockers of light
+  std::string_view show = {};           ///< FrameInputs::show
 };
 
 /// What one frame leaves to the next.

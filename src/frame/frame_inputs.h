@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "frame/emission.h"
 #include "frame/environment_light.h"
@@ -28,6 +29,7 @@ struct FrameInputs {
   std::span<const Proxy> proxies = {};  ///< spheres in place of what moves; empty unless someone made them
   const Emission* emission = nullptr;   ///< what they send; null unless someone made it
   std::span<const Patch> flats = {};    ///< what has no proxies, as blockers of light; with proxies
+  std::string_view show = {};           ///< an image to look at: pictures drawn for that alone are drawn then
 };
 
 /// First surface lit by a source, or by other surfaces.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Irradiance of a light's peak (frame/light_peak.h) through four bands of visibility O: O where the peak stands, times the cosine.
+// Includers declare a uniform block `light` whose `row` holds shade[144] (frame/field_shade.h) of the rest, and the peak.
 #ifndef GLOAM_FRAME_LIGHT_PEAK_GLSL
 #define GLOAM_FRAME_LIGHT_PEAK_GLSL
+#include "frame/field_shade.glsl"
 #include "frame/light_peak_shared.h"
 
 /// How much is left of it. Ringing may leave visibility outside 0 to 1, which counts as these.
@@ -16,6 +18,11 @@ float peakLeft(LightPeak peak, const float o[16]) {
 }
 vec3 peakThrough(LightPeak peak, const float o[16], vec3 normal) {
   return peakLeft(peak, o) * max(0.0, dot(normal, peak.direction)) * peak.irradiance;
+}
+
+/// Distant light, both parts.
+vec3 litThrough(const float o[16], vec3 normal) {
+  return irradianceThrough(o, normal) + peakThrough(light.row.peak, o, normal);
 }
 
 #endif

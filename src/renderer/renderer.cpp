@@ -56,7 +56,8 @@ frame::FrameOptions frameOptions(const RenderOptions& options) {
           .shadow_map_size = options.shadow_map_size,
           .background = options.background,
           .layers = options.layers,
-          .motion = options.show == "frame.motion"};
+          .motion = options.show == "frame.motion",
+          .show = options.show};
 }
 
 /// The technique's own options with the values that were given. Throws Error for those of another technique.

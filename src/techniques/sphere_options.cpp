@@ -21,6 +21,14 @@ Option divisorOption() {
           .help = "light is computed for one receiver in a square of that many pixels a side"};
 }
 
+Option partsOption() {
+  return {.name = "parts",
+          .default_value = true,
+          .help =
+              "the light's sharpest peak (a sun) through visibility apart from the rest, neither below 0: no "
+              "coloured rings in contact shadows; not with a window"};
+}
+
 Option windowOption() {
   return {.name = "window",
           .default_value = std::string("none"),

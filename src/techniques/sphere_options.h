@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Options of the same meaning in each room that lights by spheres: "spheres", "divisor", "window".
+// Options of the same meaning in each room that lights by spheres: "spheres", "divisor", "parts", "window".
 #pragma once
 
 #include <gloam/renderer.h>
@@ -10,6 +10,7 @@ namespace gloam {
 
 Option spheresOption();
 Option divisorOption();
+Option partsOption();
 Option windowOption();
 
 }  // namespace gloam

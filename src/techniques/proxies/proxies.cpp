@@ -67,11 +67,7 @@ const std::vector<Option>& options() {
       {.name = "flats",
        .default_value = true,
        .help = "what has no spheres (ground, walls, rooms) stands in the distant light, too, as rectangles"},
-      {.name = "parts",
-       .default_value = true,
-       .help =
-           "the light's sharpest peak (a sun) through visibility apart from the rest, neither below 0: no "
-           "coloured rings in contact shadows; not with a window"},
+      partsOption(),
       windowOption()};
   return options;
 }

@@ -5,7 +5,6 @@
 // counted twice. Includers declare the uniform block light.
 #ifndef GLOAM_PROXIES_SHADE_GLSL
 #define GLOAM_PROXIES_SHADE_GLSL
-#include "frame/field_shade.glsl"
 #include "frame/light_peak.glsl"
 #include "math/sh.glsl"
 #include "math/sh_exp.glsl"
@@ -17,11 +16,6 @@ void expOfLog(int method, vec4 log0, vec4 log1, vec4 log2, vec4 log3, out float 
   if (method == kExpLinear) shExpLinear4(f, o);
   if (method == kExpHybrid) shExpHybrid4(f, o);
   if (method == kExpQuadratic) shExpQuadratic4(f, o);
-}
-
-/// Direct light, both parts.
-vec3 litThrough(const float o[16], vec3 normal) {
-  return irradianceThrough(o, normal) + peakThrough(light.row.peak, o, normal);
 }
 
 /// Both parts, where irradiance of the rest is known with its change by the normal, a colour each, and how much is left of the peak.

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "frame/field_shade.h"
+#include "frame/light_peak.h"
 #include "shaders/spherical_lights_shaders.h"
 #include "techniques/sphere_options.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
@@ -61,6 +62,7 @@ const std::vector<Option>& options() {
       {.name = "indirect",
        .default_value = true,
        .help = "light that spheres send; without it, shadows alone"},
+      partsOption(),
       windowOption()};
   return options;
 }
@@ -113,8 +115,24 @@ SphericalLights::SphericalLights(gpu::Device& device)
       solid_angle_fit_(averageFit(Average::kSolidAngle)),
       log_fit_(logFit()) {}
 
+LightRows SphericalLights::lightRows(const sh::ShRgb& light, const Settings& settings) const {
+  LightRows row{};
+  const frame::Window window = frame::windowNamed(settings.choice("window"));
+  if (settings.flag("parts") && window == frame::Window::kNone && light.order >= kEmissionOrder) {
+    const sh::LightParts parts = sh::lightParts(light, kEmissionOrder);
+    frame::shadeRows(parts.rest, row.shade);
+    row.peak = frame::lightPeak(parts);
+  } else {
+    frame::shadeRows(frame::windowed(light, kEmissionOrder, window), row.shade);
+  }
+  std::ranges::copy(log_fit_[0], row.log_fit);
+  std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
+  std::ranges::copy(settings.choice("average") == "area" ? area_fit_ : solid_angle_fit_, row.average_fit);
+  return row;
+}
+
 /// First pass: light at surface samples, then what each sphere sends.
-gpu::BufferRef SphericalLights::recordSending(const Step& step) {
+Sending SphericalLights::recordSending(const Step& step) {
   gpu::FrameGraph& graph = step.graph;
   const Rows& rows = step.rows;
   const auto point_count = std::uint32_t(rows.points.size()), count = step.params.spheres;
@@ -154,7 +172,7 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
         .push(FlatParams{patches, point_count - patches * kPatchPoints})
         .dispatchOver(int(patches));
   }
-  if (count == 0) return step.glow;
+  if (count == 0) return {.sent = step.glow};
   const gpu::BufferRef sent =
       graph.create("spherical_lights.sent", gpu::BufferDesc{.bytes = count * sizeof(SentRow)});
   graph.compute("spherical_lights.emit", spherical_lights_emit_spv)
@@ -163,7 +181,7 @@ gpu::BufferRef SphericalLights::recordSending(const Step& step) {
       .read("senders", uploadRows(graph, "spherical_lights.senders", rows.senders))
       .write("sent", sent)
       .dispatch(count);
-  return sent;
+  return {.sent = sent, .points = points, .arriving = arriving};
 }
 
 frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
@@ -182,13 +200,6 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   const gpu::BufferRef patch_radiance = graph.create(
       "spherical_lights.patch_radiance", gpu::BufferDesc{.bytes = std::max(1u, patches) * sizeof(glm::vec3)});
   if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
-  const sh::ShRgb light =
-      frame::windowed(inputs.environment.sh(), kEmissionOrder, frame::windowNamed(settings.choice("window")));
-  LightRows row{};
-  frame::shadeRows(light, row.shade);
-  std::ranges::copy(log_fit_[0], row.log_fit);
-  std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
-  std::ranges::copy(settings.choice("average") == "area" ? area_fit_ : solid_angle_fit_, row.average_fit);
   const Step step{
       .graph = graph,
       .inputs = inputs,
@@ -199,7 +210,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .repair = settings.flag("repair"),
       .lamps_are_balls = balls,
       .indirect = settings.flag("indirect") && count + patches > 0,
-      .light = graph.uploadOne("spherical_lights.light", row),
+      .light = graph.uploadOne("spherical_lights.light", lightRows(inputs.environment.sh(), settings)),
       .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
       .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
       .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
@@ -210,7 +221,9 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .patch_radiance = patch_radiance,
       .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words),
                  std::uint32_t(rows.blocking_patches.size()), patches}};
-  return recordGathering(step, step.indirect ? recordSending(step) : step.glow);
+  const Sending sending = step.indirect ? recordSending(step) : Sending{.sent = step.glow};
+  if (sending.arriving) recordView(step, sending);
+  return recordGathering(step, sending.sent);
 }
 
 }  // namespace gloam::spherical_lights

@@ -20,7 +20,8 @@ class SphericalLights : public Technique {
                          const Settings& settings) override;
 
  private:
-  gpu::BufferRef recordSending(const Step& step);
+  Sending recordSending(const Step& step);
+  LightRows lightRows(const sh::ShRgb& light, const Settings& settings) const;
 
   gpu::Buffer cells_;
   Fit area_fit_, solid_angle_fit_;

@@ -8,7 +8,7 @@
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
-#include "frame/field_shade.glsl"
+#include "frame/light_peak.glsl"
 
 /// The group (object, or sphere) that follows in order of its centre's distance, equal ones by number.
 uint nextGroup(vec3 position, inout float key, uint last) {
@@ -107,7 +107,7 @@ Gathered gather(vec3 position, vec3 normal) {
       float e[16];
       shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
       if (final) {
-        got.direct = irradianceThrough(e, normal);
+        got.direct = litThrough(e, normal);
         got.visibility = e[0] / kShZonal0;
       } else if (patches_taken) {
         got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine));

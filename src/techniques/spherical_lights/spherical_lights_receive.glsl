@@ -12,7 +12,7 @@
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
-#include "frame/field_shade.glsl"
+#include "frame/light_peak.glsl"
 
 /// Mean over a disc of the logs of those of its list that stand before it; `bands`: of a mean over the disc.
 float logListed(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {
@@ -106,7 +106,7 @@ Gathered receive(vec3 position, vec3 normal) {
     } else if (t == 1) {
       got.indirect += withoutOverlap(from_patches, clear, through);
     } else {
-      got.direct += irradianceThrough(e, normal);
+      got.direct += litThrough(e, normal);
       got.visibility = e[0] / kShZonal0;
     }
   }

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #ifndef GLOAM_SPHERICAL_LIGHTS_SHARED_H
 #define GLOAM_SPHERICAL_LIGHTS_SHARED_H
+#include "frame/light_peak_shared.h"
 #include "frame/patch_shared.h"
 #include "frame/quads_shared.h"
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(spherical_lights)
 #ifdef __cplusplus
+using frame::LightPeak;
 using frame::PatchRow;
 using frame::QuadList;
 using frame::UpsampleParams;
@@ -26,6 +28,11 @@ GLOAM_SHARED_CONST int kPerSphereReused = 2;
 GLOAM_SHARED_CONST int kMean = 0;
 GLOAM_SHARED_CONST int kProduct = 1;
 GLOAM_SHARED_CONST int kDifference = 2;
+
+/// Pictures to look at.
+GLOAM_SHARED_CONST int kViewSamples = 0;
+GLOAM_SHARED_CONST int kViewEmission = 1;
+GLOAM_SHARED_CONST int kViewAverage = 2;
 
 /// Of as many groups (objects, or spheres) a receiver keeps the sums.
 GLOAM_SHARED_CONST uint kMostKept = 512u;
@@ -81,11 +88,12 @@ GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 GLOAM_SHARED_CONST uint kPointColumns = 64u;
 GLOAM_SHARED_CONST uint kPointRow = 512u;
 struct LightRows {
-  vec3 shade[144];   // Q[9 i + j]
+  vec3 shade[144];  // Q[9 i + j]; without the peak
+  LightPeak peak;
   vec4 log_fit[20];  // 2 kFitTerms
   vec4 average_fit[10];
 };
-GLOAM_SHARED_SIZE(LightRows, 2208)
+GLOAM_SHARED_SIZE(LightRows, 2296)
 
 struct GatherParams {
   uint spheres;

@@ -30,6 +30,16 @@ gpu::BufferRef uploadRows(gpu::FrameGraph& graph, const char* name, std::vector<
   return graph.upload(name, rows);
 }
 
+/// What the first pass leaves.
+struct Sending {
+  gpu::BufferRef sent;  ///< a SentRow a sphere
+  gpu::BufferRef points = {},
+                 arriving = {};  ///< PointRow, and radiance of white there, a sample; none without spheres
+};
+
+/// Where step.inputs.show asks for one: a picture of spheres and samples, drawn for nobody else.
+void recordView(const Step& step, const Sending& sending);
+
 /// What receivers get: "spherical_lights.gather" at the asked size; below full size brought to all pixels by "…upsample",
 /// "…widen" and "…repair". `sent`: a SentRow a sphere.
 frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/sh_light_parts.h"
 #include "math/sh_log_exp.h"
 #include "spheres/receiver_rule.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
@@ -21,9 +22,10 @@ struct TwinLight {
 
 class Twin {
  public:
+  /// `light`: six bands.
   Twin(Rows rows, const sh::ShRgb& light, Average average, int blocking, int visibility)
       : rows_(std::move(rows)),
-        light_(sh::truncated(light, 4)),
+        parts_(sh::lightParts(light, 4)),
         logs_(logFit()),
         averages_(averageFit(average)) {
     for (const SentRow& row : rows_.glow) {
@@ -184,7 +186,10 @@ class Twin {
   }
   /// Irradiance of the environment behind what these logs leave.
   glm::vec3 through(const sh::Sh& logs, const glm::vec3& n) const {
-    return glm::max(glm::vec3(0.0f), sh::irradiance(sh::product(light_, sh::expQuadratic(logs)), n));
+    const sh::Sh open = sh::expQuadratic(logs);
+    const float peak_open = glm::clamp(sh::dot(open, sh::evaluate(4, parts_.direction)), 0.0f, 1.0f);
+    return glm::max(glm::vec3(0.0f), sh::irradiance(sh::product(parts_.rest, open), n)) +
+           peak_open * std::max(0.0f, glm::dot(n, parts_.direction)) * parts_.peak;
   }
   static bool nearer(float a, std::size_t i, float b, std::size_t j) { return a < b || (a == b && i < j); }
   bool blocks(const glm::vec3& p, std::size_t j, std::size_t i, int blocking) const {
@@ -209,7 +214,7 @@ class Twin {
   }
 
   Rows rows_;
-  sh::ShRgb light_;
+  sh::LightParts parts_;
   LogFit logs_;
   Fit averages_;
   std::vector<sh::ShRgb> sent_, glow_;
