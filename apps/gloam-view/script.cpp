@@ -5,16 +5,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "app.h"
+#include "json_file.h"
 
 namespace gloam::view {
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20, kMaxSteps = 100000;
+constexpr std::size_t kMaxSteps = 100000;
 constexpr int kMaxDepth = 8, kDragSteps = 8;
 constexpr double kDefaultTimeoutSeconds = 120.0;
 
@@ -56,6 +55,11 @@ glm::vec2 pointOf(const cli::Json& value, std::size_t first, const std::string& 
   return {value[first].get<float>(), value[first + 1].get<float>()};
 }
 
+double numberOf(const cli::Json& value, const std::string& place) {
+  if (!value.is_number()) throw Error(place, "expected a number");
+  return value.get<double>();
+}
+
 std::string textOf(const cli::Json& value, const std::string& place) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number() || value.is_boolean()) return value.dump();
@@ -65,20 +69,12 @@ std::string textOf(const cli::Json& value, const std::string& place) {
 }  // namespace
 
 Script::Script(const std::string& file) : file_(file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file, "cannot be read");
-  std::string text(kMaxBytes + 1, '\0');
-  in.read(text.data(), std::streamsize(text.size()));
-  text.resize(std::size_t(in.gcount()));
-  if (text.size() > kMaxBytes) throw Error(file, "is larger than 1 MiB: no script");
-  const auto depth_check = [&file](int depth, cli::Json::parse_event_t, cli::Json&) {
-    if (depth > 4 * kMaxDepth) throw Error(file, "nests too deeply");
-    return true;
-  };
+  const cli::Json steps =
+      cli::readJsonFile(file, 4 * kMaxDepth, "a list of steps, such as [{\"key\": \"space\"}]");
   try {
-    add(cli::Json::parse(text, depth_check), "steps", 0);
-  } catch (const cli::Json::exception& problem) {
-    throw Error(file, problem.what());
+    add(steps, "steps", 0);
+  } catch (const cli::Json::exception&) {
+    throw Error(file, "a step's value is of another type than it takes");
   }
 }
 
@@ -160,11 +156,11 @@ bool Script::done(App& app, const Step& step) {
       throw Error(step.place, "expected a number of frames, \"idle\" or \"reference\"");
     return ++waited_frames_ > value.get<int>();
   }
-  if (what == "wait_s") return session.now_s() - *waiting_since_ >= value.get<double>();
+  if (what == "wait_s") return session.now_s() - *waiting_since_ >= numberOf(value, step.place);
   if (what == "mouse") return app.moveMouse(pointOf(value, 0, step.place)), true;
   if (what == "press" || what == "release")
     return app.pressMouse(textOf(value, step.place), what == "press"), true;
-  if (what == "scroll") return app.scroll(value.get<float>()), true;
+  if (what == "scroll") return app.scroll(float(numberOf(value, step.place))), true;
   if (what == "key_down" || what == "key_up")
     return app.pressKey(textOf(value, step.place), what == "key_down"), true;
   if (what == "text") return app.type(textOf(value, step.place)), true;

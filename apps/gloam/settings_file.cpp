@@ -4,39 +4,20 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 
-#include "json.h"
+#include "json_file.h"
 
 namespace gloam::cli {
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr int kMostDepth = 8;
+constexpr const char* kExpected = "an object of options, such as {\"technique\": \"prt\", \"exposure\": 0.5}";
 
 Json readSettings(const std::string& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) throw Error(file, "is a folder; expected a JSON file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file, "cannot be read");
-  std::string text(kMaxBytes + 1, '\0');
-  in.read(text.data(), std::streamsize(text.size()));
-  text.resize(std::size_t(in.gcount()));
-  if (text.size() > kMaxBytes) throw Error(file, "is larger than 1 MiB: no settings file");
-  // A nesting of a million brackets would exhaust the stack of a recursive reader; settings are two levels deep.
-  const auto depth_check = [&file](int depth, Json::parse_event_t, Json&) {
-    if (depth > 8)
-      throw Error(file, "nests too deeply; expected options, and objects of a technique's options");
-    return true;
-  };
-  try {
-    Json json = Json::parse(text, depth_check);
-    if (!json.is_object()) throw Error(file, "expected a JSON object of options");
-    return json;
-  } catch (const Json::exception& problem) {
-    throw Error(file, problem.what());
-  }
+  Json json = readJsonFile(file, kMostDepth, kExpected);
+  if (!json.is_object()) throw Error(file, fmt::format("expected {}", kExpected));
+  return json;
 }
 
 std::string valueText(const std::string& place, const Json& value) {
@@ -58,8 +39,10 @@ void setOption(CLI::App& app, const std::string& file, const std::string& key, c
     option->run_callback();
   } catch (const Error& error) {
     throw Error(file, error.what());
-  } catch (const CLI::ParseError& error) {
-    throw Error(place, error.what());
+  } catch (const CLI::ParseError&) {
+    const bool flag = option->get_expected_min() == 0;
+    throw Error(place,
+                fmt::format("'{}': expected {}", text, flag ? "true or false" : option->get_type_name()));
   }
 }
 
