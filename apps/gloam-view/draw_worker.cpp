@@ -175,6 +175,19 @@ void DrawWorker::bring(const ViewState& state, Drawn&) {
   lights_ = state.lights.text();
 }
 
+/// With the image that `options` ask for; without it, and `show` emptied, where the technique makes none of that name.
+RenderedFrame DrawWorker::renderShown(const PosedScene& posed, const PosedCamera& camera,
+                                      RenderOptions& options) {
+  try {
+    return renderer_->render(posed, camera, options);
+  } catch (const Error&) {
+    const std::vector<std::string> names = renderer_->imageNames();
+    if (options.show.empty() || std::ranges::find(names, options.show) != names.end()) throw;
+    options.show.clear();
+    return renderer_->render(posed, camera, options);
+  }
+}
+
 void DrawWorker::drawPicture(const ViewState& state, const Pick& pick, const PosedScene& posed, Drawn& drawn,
                              Picture& picture) {
   RenderOptions options;
@@ -193,7 +206,14 @@ void DrawWorker::drawPicture(const ViewState& state, const Pick& pick, const Pos
                        !state.show.starts_with(pick.info->name);
   if (by_name && !foreign) options.show = state.show;
   const Clock::time_point started = Clock::now();
-  RenderedFrame frame = renderer_->render(posed, state.camera, options);
+  RenderedFrame frame = renderShown(posed, state.camera, options);
+  const bool missing = by_name && options.show.empty();
+  const bool unfitted = cli::showsSpheres(state.show) && !spheres_;  // on their way
+  const std::string shown = missing || unfitted ? "" : state.show;
+  if (&picture == &drawn.left) {
+    drawn.show = shown;
+    if (missing) drawn.missing_show = state.show;
+  }
   picture.frame_ms = msSince(started);
   picture.passes = std::move(frame.passes);
   drawn.memory_bytes = std::max(drawn.memory_bytes, frame.memory_bytes);
@@ -201,15 +221,14 @@ void DrawWorker::drawPicture(const ViewState& state, const Pick& pick, const Pos
     if (std::ranges::find(drawn.warnings, warning) == drawn.warnings.end()) drawn.warnings.push_back(warning);
   }
   cli::holdExposure(drawn.display, frame.layers);
-  if (cli::showsSpheres(state.show)) {
-    if (!spheres_) throw Error("show", "the spheres are not fitted yet");
-    const std::vector<PosedSphere> shown = state.show == cli::kShadowSpheresLayer
-                                               ? ProxySet(scene_->scene, *spheres_).drawnIn(posed)
-                                               : poseSpheres(*spheres_, scene_->scene, posed);
-    frame.layers.add(state.show, {"R", "G", "B"},
-                     cli::spheresPicture(frame.layers, shown, state.camera, drawn.display));
+  if (cli::showsSpheres(shown)) {
+    const std::vector<PosedSphere> spheres = shown == cli::kShadowSpheresLayer
+                                                 ? ProxySet(scene_->scene, *spheres_).drawnIn(posed)
+                                                 : poseSpheres(*spheres_, scene_->scene, posed);
+    frame.layers.add(shown, {"R", "G", "B"},
+                     cli::spheresPicture(frame.layers, spheres, state.camera, drawn.display));
   }
-  picture.rgba = rgbaOf(cli::shownPicture(frame.layers, foreign ? "" : state.show, drawn.display));
+  picture.rgba = rgbaOf(cli::shownPicture(frame.layers, shown, drawn.display));
   picture.layers = std::make_shared<const LayeredImage>(std::move(frame.layers));
 }
 

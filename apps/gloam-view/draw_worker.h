@@ -30,6 +30,7 @@ struct Drawn {
   Picture left, right;
   bool split = false;
   std::string show;
+  std::string missing_show;  ///< asked for, but the technique makes no image of that name: its light is shown
   std::string technique;
   PosedCamera camera;
   std::vector<glm::vec3> instance_places;  ///< middles of PosedScene::instances, for hands to grip
@@ -69,6 +70,7 @@ class DrawWorker {
   void run();
   std::shared_ptr<const Drawn> draw(const Request& request);
   void bring(const ViewState& state, Drawn& drawn);
+  RenderedFrame renderShown(const PosedScene& posed, const PosedCamera& camera, RenderOptions& options);
   void drawPicture(const ViewState& state, const Pick& pick, const PosedScene& posed, Drawn& drawn,
                    Picture& picture);
 

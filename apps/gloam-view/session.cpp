@@ -25,7 +25,11 @@ std::string lowerExtension(const std::string& path) {
 }  // namespace
 
 Session::Session(const ViewerChoice& choice, std::function<void()> wake)
-    : choice_(choice), shaders_(choice.shader_folder), jobs_(wake), worker_(choice.device, wake), tracer_(wake) {
+    : choice_(choice),
+      shaders_(choice.shader_folder),
+      jobs_(wake),
+      worker_(choice.device, wake),
+      tracer_(wake) {
   resolution.fixed = choice.scale;
   for (Pick& pick : wanted) pick = pickOf(techniques().front());
   state.left = state.right = wanted[kLeft];
@@ -40,7 +44,9 @@ double Session::now_s() const {
 
 void Session::say(const std::string& text, bool problem) {
   if (text.empty()) return;
-  messages_.push_back({cli::singleLine(text), problem, now_s()});
+  Message message{cli::singleLine(text), problem, now_s()};
+  if (!messages_.empty() && messages_.back().text == message.text) messages_.pop_back();  // said once
+  messages_.push_back(std::move(message));
   if (messages_.size() > kKeptMessages) messages_.pop_front();
 }
 
@@ -191,7 +197,6 @@ void Session::pick(Side side, const std::string& name) {
   wanted[side] = pickOf(technique(name));
   if (const auto given = choice_.technique.values.find(name); given != choice_.technique.values.end())
     wanted[side].settings = cli::settingsFor(*wanted[side].info, choice_.technique);
-  if (!cli::isFrameLayer(state.show)) state.show.clear();  // images have other names there
   switch_started_s_ = now_s();
   prepare();
   changed();

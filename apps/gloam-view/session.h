@@ -68,6 +68,9 @@ class Session {
   bool idle()
       const;  ///< the newest picture is shown at the size it keeps, and nothing runs in the background
   bool moving() const;
+  bool drawing() const { return worker_.busy(); }
+  /// Asks for the picture of what has changed since update(), which would else ask a frame of the window later.
+  void requestPicture();
 
   // ---- What is there.
   ViewState state;
@@ -117,8 +120,9 @@ class Session {
   void takePicks();
   void takeDrawn();
   void takeReference();
+  void takeProblem(const Drawn& drawn);
+  void takeMissing(const Drawn& drawn);
   void advance();
-  void requestPicture();
   void followReference();
   void followShaders();
   void select(const Drawn& drawn);
@@ -127,9 +131,12 @@ class Session {
   RecentFiles recent_;
   ShaderWatch shaders_;
   std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0, traced_serial_ = 0;
+  std::uint64_t answered_serial_ = 0;  ///< of the last picture, drawn or not
   std::uint64_t picture_revision_ = 0;
   int width_ = 0, height_ = 0, sent_width_ = 0, sent_height_ = 0, still_width_ = 0, still_height_ = 0;
-  double last_change_s_ = -10.0, last_look_s_ = 0.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0, switch_started_s_ = -1.0;
+  int answered_width_ = 0, losses_ = 0;
+  double last_change_s_ = -10.0, last_look_s_ = 0.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0,
+         switch_started_s_ = -1.0;
   double switch_ms_ = 0.0;
   std::uint64_t response_serial_ = 0;
   int response_from_ = 0, slowest_response_ = 0;

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "arguments.h"
 #include "gpu/shader_code.h"
 #include "session.h"
 #include "show.h"
@@ -30,7 +31,7 @@ std::string kindOf(const std::string& left, const std::string& right, const std:
   return left + " " + right + " " + show;
 }
 
-constexpr int kMostGrowths = 3;
+constexpr int kMostGrowths = 3, kMostLosses = 3;
 constexpr double kLookSeconds = 0.25;   // between looks at the sources of shaders
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
 
@@ -52,15 +53,11 @@ void Session::update(int width, int height) {
 void Session::takeDrawn() {
   std::shared_ptr<const Drawn> drawn = worker_.take();
   if (!drawn) return;
-  if (!drawn->error.empty()) {
-    say(drawn->error, true);
-    if (drawn->error.find("device was lost") != std::string::npos) {
-      say("the renderer starts anew");
-      ++serial_;
-    }
-    if (!drawn_) fatal = drawn->error;
-    return;
-  }
+  answered_serial_ = drawn->serial;
+  answered_width_ = drawn->width;
+  if (!drawn->error.empty()) return takeProblem(*drawn);
+  losses_ = 0;
+  if (!drawn->missing_show.empty()) takeMissing(*drawn);
   for (const std::string& warning : drawn->warnings) {
     const bool said = std::ranges::any_of(messages_, [&](const Message& m) { return m.text == warning; });
     if (!said) say(warning);
@@ -98,6 +95,30 @@ void Session::takeDrawn() {
     say(error.what(), true);
     video_.reset();
   }
+}
+
+/// What was shown stays.
+void Session::takeProblem(const Drawn& drawn) {
+  say(drawn.error, true);
+  if (!drawn_) fatal = drawn.error;
+  if (drawn.error.find("device was lost") == std::string::npos) return;
+  if (++losses_ > kMostLosses) {
+    fatal = "gpu: the device was lost again and again";
+    return;
+  }
+  say("the renderer starts anew");
+  ++serial_;
+}
+
+/// Images of other techniques, or of options that were turned off, have no place here.
+void Session::takeMissing(const Drawn& drawn) {
+  if (state.show != drawn.missing_show || waitsFor(kLeft) || drawn.technique != wanted[kLeft].info->name)
+    return;
+  const std::string problem =
+      fmt::format("show '{}': {} makes no image of that name", state.show, drawn.technique);
+  if (!drawn_) fatal = fmt::format("{}; expected {}", problem, cli::listed(drawn.image_names));
+  say(problem + "; its light is shown", true);
+  state.show.clear();
 }
 
 /// The node of the surface that was clicked.
@@ -199,7 +220,7 @@ void Session::followShaders() {
 
 bool Session::idle() const {
   return !jobs_.status().busy && !preparing_ && !worker_.busy() && !moving() && drawn_ &&
-         drawn_->serial == serial_ && still_serial_ == serial_ && drawn_->width == sent_width_;
+         answered_serial_ == serial_ && still_serial_ == serial_ && answered_width_ == sent_width_;
 }
 
 cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
