@@ -16,6 +16,8 @@ namespace {
 constexpr double kLeastFrameSeconds = 1.0 / 60.0;
 constexpr double kInputSeconds = 0.25;                        // frames go on after an input
 constexpr double kRestSeconds = 0.5, kProgressSeconds = 0.1;  // between two frames that show no new picture
+constexpr double kSharedSeconds =
+    0.05;  // the same where the cores that draw the window draw the picture, too
 constexpr int kMostRecoveries = 3;
 
 std::string glfw_problem;
@@ -178,8 +180,11 @@ bool App::update() {
   const float pixels = float(width) / float(window_width);
   session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
   const double since = glfwGetTime() - drawn_s_;
-  const bool fresh = uploaded_ != session_->pictureRevision() || glfwGetTime() - input_s_ < kInputSeconds ||
-                     (script_ && !script_->waits()) || ImGui::IsAnyMouseDown() || session_->moving();
+  if (uploaded_ != session_->pictureRevision() || (script_ && !script_->waits())) return true;
+  const bool answered = input_s_ <= drawn_s_ || session_->drawing();
+  if (answered && device_->software() && since < kSharedSeconds) return false;
+  const bool fresh =
+      glfwGetTime() - input_s_ < kInputSeconds || ImGui::IsAnyMouseDown() || session_->moving();
   return fresh || since > (session_->idle() ? kRestSeconds : kProgressSeconds);
 }
 
@@ -198,6 +203,7 @@ void App::drawFrame() {
     surface_->ui().setTexture(TextureSlot::kLetters, letters_width, letters_height, pixels);
   }
   ui_.ui_device_ms = surface_->uiDeviceMs();
+  ui_.controls.clear();
   const ImVec2 window{float(window_width), float(window_height)};
   uploadPictures();
   ImGui_ImplGlfw_NewFrame();
@@ -209,6 +215,7 @@ void App::drawFrame() {
   drawOverlays(*session_, ui_, place_);
   drawInspector(*session_, ui_, place_);
   handleInput(*session_, ui_, place_, gizmo_has_mouse);
+  session_->requestPicture();
   ui_.pressed.clear();
   ui_.repeated.clear();
   ImGui::Render();
@@ -268,6 +275,12 @@ void App::writeStats(const std::string& path) {
   cli::Json stats = session_->stats(ui_.ui_device_ms, device_->liveObjects());
   stats["picture_place"] = {place_.low.x, place_.low.y, place_.size.x, place_.size.y};
   stats["panel"] = ui_.panel;
+  stats["controls"] = cli::Json::object();
+  for (const auto& [name, at] : ui_.controls)
+    stats["controls"][name] = {at.low.x, at.low.y, at.size.x, at.size.y};
+  stats["light_marks"] = cli::Json::array();
+  for (const LightMark& mark : lightMarks(*session_, place_))
+    stats["light_marks"].push_back({mark.at.x, mark.at.y});
   const std::string text = cli::jsonText(stats) + "\n";
   AtomicFile out(path);
   out.write(text.data(), text.size());

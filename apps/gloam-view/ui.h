@@ -6,12 +6,21 @@
 
 #include <imgui.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
 #include "session.h"
 
 namespace gloam::view {
+
+/// Where the picture, or a control, stands in the window, in its units.
+struct Place {
+  ImVec2 low{0.0f, 0.0f}, size{0.0f, 0.0f};
+  bool holds(const ImVec2& p) const {
+    return p.x >= low.x && p.y >= low.y && p.x < low.x + size.x && p.y < low.y + size.y;
+  }
+};
 
 /// What of the window is the window's alone.
 struct UiState {
@@ -23,15 +32,8 @@ struct UiState {
   std::string preset = "preset.json", screenshot = "gloam.png", video = "gloam.mp4";
   /// Keys since the last frame, each press and repeat: short ones between two slow frames count too.
   std::vector<int> pressed, repeated;
-  std::string copied;  ///< to the clipboard, by whoever owns it
-};
-
-/// Where the picture stands in the window, in its units.
-struct Place {
-  ImVec2 low{0.0f, 0.0f}, size{0.0f, 0.0f};
-  bool holds(const ImVec2& p) const {
-    return p.x >= low.x && p.y >= low.y && p.x < low.x + size.x && p.y < low.y + size.y;
-  }
+  std::string copied;                     ///< to the clipboard, by whoever owns it
+  std::map<std::string, Place> controls;  ///< of this frame, by name: for tests
 };
 
 void setStyle(float scale);
@@ -44,8 +46,15 @@ void drawPicture(Session& session, const Place& place);
 /// Status line, messages, progress, play bar: over or under the picture.
 void drawOverlays(Session& session, UiState& ui, const Place& place);
 void drawInspector(Session& session, const UiState& ui, const Place& place);
-/// Handles of what is selected. True while the mouse is theirs.
+/// Marks of lights, and handles of what is selected. True while the mouse is theirs.
 bool drawGizmo(Session& session, UiState& ui, const Place& place);
+struct LightMark {
+  int node = kNone;
+  ImVec2 at;
+  glm::vec3 color{1.0f};
+};
+/// Of all lights in front of the eye.
+std::vector<LightMark> lightMarks(const Session& session, const Place& place);
 /// The node of a light whose mark is there, or kNone.
 int lightAt(const Session& session, const Place& place, const ImVec2& at, float scale);
 /// Mouse over the picture and keys.
@@ -53,11 +62,11 @@ void handleInput(Session& session, UiState& ui, const Place& place, bool gizmo_h
 
 // Sections of the panel.
 void sceneSection(Session& session, UiState& ui);
-void techniqueSection(Session& session);
+void techniqueSection(Session& session, UiState& ui);
 void lightSection(Session& session);
 void cameraSection(Session& session);
 void viewSection(Session& session, UiState& ui);
-void compareSection(Session& session);
+void compareSection(Session& session, UiState& ui);
 void objectSection(Session& session, UiState& ui);
 void timesSection(Session& session, UiState& ui);
 void saveSection(Session& session, UiState& ui);
@@ -67,9 +76,13 @@ void label(const char* text, const char* help = nullptr);
 void helpMark(const char* help);
 bool inputPath(const char* id, std::string& text, float width);
 void dim(const std::string& text);
+/// In one line; what does not fit is cut, and shown whole under the mouse.
+void fittedLine(const std::string& text, float width);
 /// A row of a table of two columns.
 void valueRow(const char* name, const std::string& value);
 /// Controls for every option of a technique, from its table.
-void optionControls(Session& session, Side side);
+void optionControls(Session& session, UiState& ui, Side side);
+/// Keeps where the control stands that came last.
+void noteControl(UiState& ui, const std::string& name);
 
 }  // namespace gloam::view

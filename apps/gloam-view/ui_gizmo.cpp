@@ -19,7 +19,7 @@ constexpr ImU32 kColors[3] = {IM_COL32(222, 96, 88, 255), IM_COL32(126, 196, 96,
                               IM_COL32(92, 148, 230, 255)};
 constexpr ImU32 kSoftColors[3] = {IM_COL32(222, 96, 88, 90), IM_COL32(126, 196, 96, 90),
                                   IM_COL32(92, 148, 230, 90)};
-constexpr ImU32 kBright = IM_COL32(255, 232, 150, 255);
+constexpr ImU32 kBright = IM_COL32(255, 232, 150, 255), kRim = IM_COL32(12, 14, 18, 150);
 
 enum class Kind { kNone, kAxis, kPlane, kRing };
 
@@ -209,41 +209,8 @@ void pull(Session& session, const Stage& stage) {
   session.changed();
 }
 
-void drawLightMarks(const Session& session, const Place& place, float scale) {
-  const Drawn& drawn = *session.drawn();
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const PosedLight& light : drawn.lights) {
-    const glm::vec3 p = project(session.camera.posed(), light.position, {place.size.x, place.size.y});
-    if (p.z <= 0.0f) continue;
-    const ImVec2 at(place.low.x + p.x, place.low.y + p.y);
-    list.AddCircleFilled(at, 4.0f * scale, IM_COL32(255, 236, 170, 230));
-    list.AddCircle(at, 8.0f * scale, IM_COL32(255, 236, 170, 160), 20, 1.5f * scale);
-  }
-}
-
-}  // namespace
-
-int lightAt(const Session& session, const Place& place, const ImVec2& at, float scale) {
-  const Drawn* drawn = session.drawn();
-  if (drawn == nullptr || !session.state.scene) return kNone;
-  const std::vector<int>& nodes = session.state.scene->light_nodes;
-  for (std::size_t i = 0; i < std::min(nodes.size(), drawn->lights.size()); ++i) {
-    const glm::vec3 p =
-        project(session.camera.posed(), drawn->lights[i].position, {place.size.x, place.size.y});
-    const bool near = std::hypot(place.low.x + p.x - at.x, place.low.y + p.y - at.y) < 10.0f * scale;
-    if (p.z > 0.0f && near) return nodes[i];
-  }
-  return kNone;
-}
-
-bool drawGizmo(Session& session, UiState& ui, const Place& place) {
-  if (session.drawn() == nullptr || !session.state.scene || session.selected_node == kNone) {
-    held = {};
-    return false;
-  }
-  ImGui::GetBackgroundDrawList()->PushClipRect(place.low,
-                                               {place.low.x + place.size.x, place.low.y + place.size.y});
-  drawLightMarks(session, place, ui.scale);
+/// Handles, and what the mouse does with them. True while it is theirs.
+bool drawSelected(Session& session, const UiState& ui, const Place& place) {
   const std::optional<glm::vec3> at = held.kind == Kind::kNone ? placeOf(session) : held.origin + held.moved;
   bool mine = false;
   if (at && place.size.y > 1.0f) {
@@ -267,6 +234,60 @@ bool drawGizmo(Session& session, UiState& ui, const Place& place) {
     }
   }
   if (!ImGui::GetIO().MouseDown[0]) held = {};
+  return mine;
+}
+
+bool isNear(const LightMark& mark, const ImVec2& at, float scale) {
+  return std::hypot(mark.at.x - at.x, mark.at.y - at.y) < 10.0f * scale;
+}
+
+/// In the light's colour, with a dark rim that stands out from bright walls; brighter under the mouse.
+void drawLightMarks(const Session& session, const Place& place, float scale) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  for (const LightMark& mark : lightMarks(session, place)) {
+    const bool lit = !ImGui::GetIO().WantCaptureMouse && isNear(mark, mouse, scale);
+    const ImU32 color = lit ? kBright : ImGui::GetColorU32({mark.color.x, mark.color.y, mark.color.z, 1.0f});
+    list.AddCircleFilled(mark.at, 4.0f * scale, color);
+    list.AddCircle(mark.at, 8.5f * scale, kRim, 24, 3.5f * scale);
+    list.AddCircle(mark.at, 8.5f * scale, color, 24, 1.5f * scale);
+  }
+}
+
+}  // namespace
+
+std::vector<LightMark> lightMarks(const Session& session, const Place& place) {
+  std::vector<LightMark> marks;
+  const Drawn* drawn = session.drawn();
+  if (drawn == nullptr || !session.state.scene) return marks;
+  const std::vector<int>& nodes = session.state.scene->light_nodes;
+  const PosedCamera camera = session.camera.posed();
+  for (std::size_t i = 0; i < std::min(nodes.size(), drawn->lights.size()); ++i) {
+    const PosedLight& light = drawn->lights[i];
+    const glm::vec3 p = project(camera, light.position, {place.size.x, place.size.y});
+    if (p.z <= 0.0f) continue;
+    const glm::vec3& sent = light.light.intensity;
+    const float most = std::max({sent.x, sent.y, sent.z, 1e-6f});
+    marks.push_back({nodes[i], {place.low.x + p.x, place.low.y + p.y}, 0.35f + 0.65f * sent / most});
+  }
+  return marks;
+}
+
+int lightAt(const Session& session, const Place& place, const ImVec2& at, float scale) {
+  for (const LightMark& mark : lightMarks(session, place)) {
+    if (isNear(mark, at, scale)) return mark.node;
+  }
+  return kNone;
+}
+
+bool drawGizmo(Session& session, UiState& ui, const Place& place) {
+  const bool selected = session.drawn() != nullptr && session.state.scene && session.selected_node != kNone;
+  if (!selected) held = {};
+  if (!selected && !ui.panel) return false;  // the picture alone
+  ImGui::GetBackgroundDrawList()->PushClipRect(place.low,
+                                               {place.low.x + place.size.x, place.low.y + place.size.y});
+  drawLightMarks(session, place, ui.scale);
+  const bool mine = selected && drawSelected(session, ui, place);
   ImGui::GetBackgroundDrawList()->PopClipRect();
   return mine;
 }

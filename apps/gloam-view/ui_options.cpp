@@ -20,6 +20,12 @@ std::string textOf(const OptionValue& value) {
   return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
 }
 
+/// Small values get as much of the slider as large ones. Where 0 is one of them, it keeps the left end for itself.
+bool isWide(const Option& option) {
+  const double least = std::holds_alternative<int>(option.default_value) ? 1.0 : 1e-3;
+  return option.minimum >= 0.0 && option.maximum > 100.0 * std::max(option.minimum, least);
+}
+
 void flagControl(Session& session, Side side, const Option& option) {
   bool value = session.wanted[side].settings.flag(option.name);
   if (ImGui::Checkbox(fmt::format("##{}", option.name).c_str(), &value))
@@ -28,7 +34,7 @@ void flagControl(Session& session, Side side, const Option& option) {
 
 void integerControl(Session& session, Side side, const Option& option) {
   int value = session.wanted[side].settings.integer(option.name);
-  const bool wide = option.maximum - option.minimum > 1000.0 && option.minimum > 0.0;
+  const bool wide = isWide(option);
   if (ImGui::SliderInt(fmt::format("##{}", option.name).c_str(), &value, int(option.minimum),
                        int(option.maximum), "%d",
                        ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0)))
@@ -37,7 +43,7 @@ void integerControl(Session& session, Side side, const Option& option) {
 
 void numberControl(Session& session, Side side, const Option& option) {
   float value = session.wanted[side].settings.number(option.name);
-  const bool wide = option.maximum > 100.0 * std::max(option.minimum, 1e-3) && option.minimum >= 0.0;
+  const bool wide = isWide(option);
   if (ImGui::SliderFloat(fmt::format("##{}", option.name).c_str(), &value, float(option.minimum),
                          float(option.maximum), "%.3g",
                          ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0)))
@@ -55,7 +61,7 @@ void choiceControl(Session& session, Side side, const Option& option) {
 
 }  // namespace
 
-void optionControls(Session& session, Side side) {
+void optionControls(Session& session, UiState& ui, Side side) {
   ImGui::PushID(side);
   const TechniqueInfo& info = *session.wanted[side].info;
   for (const Option& option : info.options) {
@@ -72,6 +78,7 @@ void optionControls(Session& session, Side side) {
     } else {
       choiceControl(session, side, option);
     }
+    noteControl(ui, fmt::format("{}.{}", side == kLeft ? info.name : "right", option.name));
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right))
       session.setOption(side, option.name, textOf(option.default_value));
   }

@@ -77,7 +77,7 @@ void sceneSection(Session& session, UiState& ui) {
                                : fmt::format("{} lamps", lamps)));
 }
 
-void techniqueSection(Session& session) {
+void techniqueSection(Session& session, UiState& ui) {
   if (!section("Technique", true)) return;
   ImGui::SetNextItemWidth(-1.0f);
   const TechniqueInfo& wanted = *session.wanted[kLeft].info;
@@ -95,7 +95,7 @@ void techniqueSection(Session& session) {
   if (lamps_only && session.state.scene && session.state.scene->light_nodes.empty())
     dim("It computes the light of lamps, and this scene has none.");
   ImGui::Spacing();
-  optionControls(session, kLeft);
+  optionControls(session, ui, kLeft);
 }
 
 void lightSection(Session& session) {
@@ -212,13 +212,13 @@ void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& 
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
   sceneSection(session, ui);
-  techniqueSection(session);
+  techniqueSection(session, ui);
   lightSection(session);
   viewSection(session, ui);
   static Split seen = Split::kNone;  // what is compared shows its numbers
   if (std::exchange(seen, session.state.split) != session.state.split && session.state.split != Split::kNone)
     ImGui::SetNextItemOpen(true);
-  if (section("Compare", false)) compareSection(session);
+  if (section("Compare", false)) compareSection(session, ui);
   cameraSection(session);
   if (section("Move things", false)) objectSection(session, ui);
   if (section("Times and memory", false)) timesSection(session, ui);

@@ -40,13 +40,6 @@ std::string rightName(const Session& session) {
   return text;
 }
 
-/// Two lines at most, with dots where more does not fit.
-std::string fitted(std::string text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  while (text.size() > 8 && ImGui::CalcTextSize((text + "…").c_str()).x > width) text.pop_back();
-  return text + "…";
-}
-
 void statusLine(const Session& session, const UiState& ui, const Place& place) {
   const float height = ImGui::GetIO().DisplaySize.y - place.size.y;
   if (height < 4.0f) return;
@@ -61,28 +54,33 @@ void statusLine(const Session& session, const UiState& ui, const Place& place) {
     std::string text = fmt::format("{}   {:.0f} ms   {} x {}   {}   panels {:.2f} ms", drawn->technique, ms,
                                    drawn->width, drawn->height, drawn->device.name, ui.ui_device_ms);
     if (session.duration_s() > 0.0f) text += fmt::format("   {:.2f} s", session.state.time_s);
-    dim(fitted(text, place.size.x - 24.0f * ui.scale));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    fittedLine(text, place.size.x - 24.0f * ui.scale);
+    ImGui::PopStyleColor();
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
 
+/// The newest lowest, each whole: in as many lines as the picture's width asks for.
 void messageList(const Session& session, const UiState& ui, const Place& place, float bottom) {
+  constexpr int kMostShown = 3;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float line = ImGui::GetFontSize() * 1.75f;
-  const float width = place.size.x - 40.0f * ui.scale;
-  if (width < 120.0f * ui.scale) return;
+  const float margin = 16.0f * ui.scale, gap = 4.0f * ui.scale;
+  const ImVec2 pad(8.0f * ui.scale, 4.0f * ui.scale);
+  const float wrap = place.size.x - 2.0f * (margin + pad.x);
+  if (wrap < 60.0f * ui.scale) return;
   int shown = 0;
-  for (auto m = session.messages().rbegin(); m != session.messages().rend() && shown < 3; ++m) {
+  for (auto m = session.messages().rbegin(); m != session.messages().rend() && shown < kMostShown; ++m) {
     if (session.now_s() - m->at_s > (m->problem ? kProblemSeconds : kShownSeconds)) continue;
-    const std::string text = fitted(m->text, width - 16.0f * ui.scale);
-    const float y = bottom - line * float(shown + 1);
-    if (y < line) break;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const ImVec2 low(16.0f * ui.scale, y);
-    list.AddRectFilled(low, {low.x + size.x + 16.0f * ui.scale, y + line * 0.9f}, kShade, 3.0f * ui.scale);
-    list.AddText({low.x + 8.0f * ui.scale, y + (line * 0.9f - size.y) * 0.5f}, m->problem ? kAlarm : kSoft,
-                 text.c_str());
+    const ImVec2 size = ImGui::CalcTextSize(m->text.c_str(), nullptr, false, wrap);
+    const float height = size.y + 2.0f * pad.y;
+    if (shown > 0 && bottom - height < gap) break;
+    const ImVec2 low(margin, std::max(bottom - height, gap));  // the newest begins inside
+    list.AddRectFilled(low, {low.x + size.x + 2.0f * pad.x, low.y + height}, kShade, 3.0f * ui.scale);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
+                 m->problem ? kAlarm : kSoft, m->text.c_str(), nullptr, wrap);
+    bottom = low.y - gap;
     ++shown;
   }
 }
@@ -90,7 +88,7 @@ void messageList(const Session& session, const UiState& ui, const Place& place, 
 /// Height that it takes.
 float progressBar(Session& session, const UiState& ui, const Place& place) {
   const Jobs::Status job = session.job();
-  if (!job.busy || place.size.x < 220.0f * ui.scale || place.size.y < 90.0f * ui.scale) return 0.0f;
+  if (!job.busy || place.size.x < 140.0f * ui.scale || place.size.y < 90.0f * ui.scale) return 0.0f;
   const float height = 52.0f * ui.scale, width = std::min(place.size.x - 32.0f * ui.scale, 560.0f * ui.scale);
   ImGui::SetNextWindowPos({16.0f * ui.scale, place.size.y - height - 14.0f * ui.scale});
   ImGui::SetNextWindowSize({width, height});
@@ -101,7 +99,7 @@ float progressBar(Session& session, const UiState& ui, const Place& place) {
   const float button = 70.0f * ui.scale;
   const std::string text = job.step.empty() ? job.what : fmt::format("{}: {}", job.what, job.step);
   ImGui::BeginGroup();
-  ImGui::TextUnformatted(fitted(text, width - button - 44.0f * ui.scale).c_str());
+  fittedLine(text, width - button - 36.0f * ui.scale);
   ImGui::ProgressBar(float(job.fraction), {width - button - 36.0f * ui.scale, 8.0f * ui.scale}, "");
   ImGui::EndGroup();
   ImGui::SameLine();
@@ -111,29 +109,38 @@ float progressBar(Session& session, const UiState& ui, const Place& place) {
   return height + 18.0f * ui.scale;
 }
 
-float playBar(Session& session, const UiState& ui, const Place& place, float above) {
-  const bool any = session.duration_s() > 0.0f;
-  if (!any || place.size.x < 260.0f * ui.scale || place.size.y < 120.0f * ui.scale) return 0.0f;
-  const float height = 40.0f * ui.scale, width = std::min(place.size.x - 32.0f * ui.scale, 560.0f * ui.scale);
+float playBar(Session& session, UiState& ui, const Place& place, float above) {
+  const bool any = session.duration_s() > 0.0f || session.state.lights.moves();
+  const float button = 64.0f * ui.scale, height = 40.0f * ui.scale;
+  const float width = std::min(place.size.x - 32.0f * ui.scale, 560.0f * ui.scale);
+  if (!any || width < button + 16.0f * ui.scale || place.size.y < height + above + 24.0f * ui.scale)
+    return 0.0f;
   ImGui::SetNextWindowPos({16.0f * ui.scale, place.size.y - height - 14.0f * ui.scale - above});
   ImGui::SetNextWindowSize({width, height});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 4.0f * ui.scale);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f * ui.scale, 8.0f * ui.scale});
   ImGui::Begin("play", nullptr, plain());
-  if (ImGui::Button(session.playing ? "Pause" : "Play", {64.0f * ui.scale, 0.0f}))
-    session.play(!session.playing);
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-76.0f * ui.scale);
-  float time_s = session.state.time_s;
-  if (ImGui::SliderFloat("##time", &time_s, 0.0f, session.duration_s(), "%.2f s",
-                         ImGuiSliderFlags_AlwaysClamp)) {
-    session.playing = false;
-    session.setTime(time_s);
+  if (ImGui::Button(session.playing ? "Pause" : "Play", {button, 0.0f})) session.play(!session.playing);
+  noteControl(ui, "play");
+  const bool wide = width >= 240.0f * ui.scale;  // narrow ones leave out the speed, then the time
+  if (session.duration_s() > 0.0f && width >= 130.0f * ui.scale) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(wide ? -76.0f * ui.scale : -1.0f);
+    float time_s = session.state.time_s;
+    if (ImGui::SliderFloat("##time", &time_s, 0.0f, session.duration_s(), "%.2f s",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+      session.playing = false;
+      session.setTime(time_s);
+    }
+    noteControl(ui, "time");
   }
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1.0f);
-  ImGui::SliderFloat("##speed", &session.speed, 0.1f, 4.0f, "x %.2f", ImGuiSliderFlags_Logarithmic);
+  if (wide) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::SliderFloat("##speed", &session.speed, 0.1f, 4.0f, "x %.2f", ImGuiSliderFlags_Logarithmic);
+    noteControl(ui, "speed");
+  }
   ImGui::End();
   ImGui::PopStyleVar(2);
   return height + 6.0f * ui.scale;

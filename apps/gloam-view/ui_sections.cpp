@@ -77,7 +77,7 @@ void memoryTable(const Drawn& drawn) {
 
 }  // namespace
 
-void compareSection(Session& session) {
+void compareSection(Session& session, UiState& ui) {
   int split = int(session.state.split);
   label("beside it");
   if (ImGui::Combo("##split", &split, "nothing\0a technique\0the reference\0"))
@@ -93,7 +93,7 @@ void compareSection(Session& session) {
     ImGui::EndCombo();
   }
   if (session.waitsFor(kRight)) dim("being prepared");
-  optionControls(session, kRight);
+  optionControls(session, ui, kRight);
 }
 
 void objectSection(Session& session, UiState& ui) {

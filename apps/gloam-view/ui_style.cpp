@@ -125,6 +125,23 @@ void dim(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void fittedLine(const std::string& text, float width) {
+  std::string cut = text;
+  while (cut.size() > 1 && ImGui::CalcTextSize((cut + "…").c_str()).x > width &&
+         ImGui::CalcTextSize(cut.c_str()).x > width) {
+    do {
+      cut.pop_back();
+    } while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80);  // whole letters
+  }
+  ImGui::TextUnformatted((cut.size() < text.size() ? cut + "…" : cut).c_str());
+  if (cut.size() < text.size() && ImGui::IsItemHovered()) helpMark(text.c_str());
+}
+
+void noteControl(UiState& ui, const std::string& name) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ui.controls[name] = {low, {high.x - low.x, high.y - low.y}};
+}
+
 bool inputPath(const char* id, std::string& text, float width) {
   char buffer[1024] = {};
   text.copy(buffer, sizeof buffer - 1);

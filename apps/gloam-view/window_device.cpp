@@ -145,6 +145,7 @@ void WindowDevice::chooseDevice() {
       physical_ = device;
       family_ = i;
       name_ = properties.deviceName;
+      software_ = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
       timestamp_ns_ = queues[i].timestampValidBits > 0 ? double(properties.limits.timestampPeriod) : 0.0;
     }
   }

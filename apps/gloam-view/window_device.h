@@ -30,6 +30,7 @@ class WindowDevice {
   VkSurfaceKHR surface() const { return surface_; }
   double timestampNs() const { return timestamp_ns_; }  ///< a tick; 0: no timestamps
   const std::string& name() const { return name_; }
+  bool software() const { return software_; }  ///< the host's own cores draw
 
   struct Buffer {
     VkBuffer handle = VK_NULL_HANDLE;
@@ -71,6 +72,7 @@ class WindowDevice {
   std::uint32_t family_ = 0;
   double timestamp_ns_ = 0.0;
   std::string name_;
+  bool software_ = false;
   mutable int live_ = 0;
 };
 

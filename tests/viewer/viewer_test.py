@@ -198,6 +198,81 @@ class ViewerTest(unittest.TestCase):
         self.assertIn("opened anew", said)
         self.assertGreater(len(set(png_size_and_rows(self.folder / "end.png")[2][200])), 8)  # there is a picture again
 
+    def test_presets_that_are_none_are_said_in_our_words(self):
+        broken = {"comma.json": '{"exposure": 1,\n "fov": }', "cut.json": '{"exposure": 0.5', "empty.json": "", "list.json": "[1, 2]",
+                  "flag.json": '{"background": "maybe"}', "huge.json": '{"exposure": 1e999}', "deep.json": "[" * 100000}
+        for name, text in broken.items():
+            (self.folder / name).write_text(text)
+        self.script([{"wait": "idle"}, *({"drop": name} for name in broken), {"wait": "idle"}, {"stats": "said.json"}])
+        said = self.stats("said.json")["messages"]
+        for name, says in {"comma.json": "line 2, column 9: no JSON from here on", "cut.json": "line 1, column",
+                           "empty.json": "is empty", "list.json": "an object of options",
+                           "flag.json": "background: 'maybe': expected true or false", "huge.json": "too large",
+                           "deep.json": "nests too deeply"}.items():
+            lines = [line for line in said if line.startswith(name)]
+            self.assertEqual(len(lines), 1, said)
+            self.assertIn(says, lines[0])
+            self.assertIn("expected", lines[0])
+            self.assertNotIn("exception", lines[0])
+
+    # ---- images by name ----------------------------------------------------------------------------------------------
+
+    def test_images_that_are_not_made_give_way_to_the_light(self):
+        self.refuse(BOX, *SMALL, "--show", "nonsense", says="show 'nonsense': irradiance makes no image of that name; expected")
+        self.script([
+            {"wait": "idle"}, {"set": {"show": "nonsense"}}, {"wait": "idle"}, {"stats": "unknown.json"},
+            {"set": {"technique": "splatting", "show": "splatting.irradiance"}}, {"wait": "idle"}, {"stats": "known.json"},
+            {"set": {"technique": "irradiance"}}, {"wait": "idle"}, {"stats": "switched.json"},
+            {"screenshot": "light.png"}, {"set": {"show": "depth"}}, {"wait": "idle"}, {"set": {"technique": "splatting"}},
+            {"wait": "idle"}, {"stats": "layer.json"}], BOX, *SMALL, "--technique", "irradiance", "--scale", "0.2")
+        unknown, known, switched, layer = (self.stats(f"{n}.json") for n in ("unknown", "known", "switched", "layer"))
+        line = "show '{}': irradiance makes no image of that name; its light is shown"
+        self.assertIn(line.format("nonsense"), unknown["messages"])
+        self.assertEqual(unknown["show"], "")
+        self.assertEqual(known["show"], "splatting.irradiance")
+        self.assertIn(line.format("splatting.irradiance"), switched["messages"])
+        self.assertEqual(switched["show"], "")
+        self.assertEqual(layer["show"], "depth")  # every technique has the frame's layers
+        self.assertTrue((self.folder / "light.png").exists())
+
+    # ---- panels ------------------------------------------------------------------------------------------------------
+
+    def test_wide_sliders_are_fine_at_small_values(self):
+        window = [BOX, "--size", "1100x800", "--scale", "0.1", "--technique", "splatting"]
+        self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "where.json"}], *window)
+        x, y, width, height = self.stats("where.json")["controls"]["splatting.vpls"]
+        y += height / 2
+        self.script([
+            {"wait": "idle"}, {"drag": [x + 5, y, x + width / 2, y]}, {"wait": "idle"}, {"stats": "middle.json"},
+            {"drag": [x + width / 2, y, x + width - 1, y]}, {"wait": 3}, {"stats": "most.json"},
+            {"drag": [x + width / 2, y, x + 1, y]}, {"wait": "idle"}, {"stats": "least.json"}], *window)
+        middle, most, least = (self.stats(f"{n}.json")["settings"]["vpls"] for n in ("middle", "most", "least"))
+        self.assertTrue(20 <= middle <= 2000, middle)  # of 0 to 100000
+        self.assertEqual(most, 100000)
+        self.assertEqual(least, 0)
+
+    def test_what_plays_is_at_hand_in_narrow_windows(self):
+        for size in ([200, 320], [320, 110], [640, 420]):
+            arguments = ["builtin:walker?detail=0.25", "--size", f"{size[0]}x{size[1]}", "--scale", "0.2"]
+            self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "still.json"}], *arguments)
+            x, y, width, height = self.stats("still.json")["controls"]["play"]
+            self.assertTrue(0 <= x and x + width <= size[0] and 0 <= y and y + height <= size[1], (x, y, width, height))
+            self.script([{"wait": "idle"}, {"click": [x + width / 2, y + height / 2]}, {"wait_s": 0.5}, {"stats": "plays.json"}],
+                        *arguments)
+            self.assertGreater(self.stats("plays.json")["time_s"], 0.0)
+
+    def test_lights_are_seen_before_anything_is_selected(self):
+        window = [BOX, "--size", "900x600", "--scale", "0.2"]
+        self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "still.json"}, {"window_screenshot": "still.png"}], *window)
+        still = self.stats("still.json")
+        self.assertEqual(still["selected"], -1)
+        (x, y), = still["light_marks"]
+        _, _, rows = png_size_and_rows(self.folder / "still.png")
+        around = [rows[round(y)][3 * (round(x) + dx)] for dx in (0, 6)]  # the dot, and the dark rim round it
+        self.assertGreater(around[0], around[1] + 40, around)
+        self.script([{"wait": "idle"}, {"click": [x, y]}, {"wait": "idle"}, {"stats": "clicked.json"}], *window)
+        self.assertGreaterEqual(self.stats("clicked.json")["selected"], 0)
+
     # ---- switching ---------------------------------------------------------------------------------------------------
 
     def test_switching_leaks_nothing(self):
@@ -245,6 +320,17 @@ class ViewerTest(unittest.TestCase):
         self.assertNotEqual(box["selected"], lamp["selected"])
         self.assertGreaterEqual(box["selected"], 0)
         self.assertNotEqual(png_size_and_rows(self.folder / "before.png"), png_size_and_rows(self.folder / "lamp.png"))
+
+    def test_an_input_is_shown_within_two_pictures(self):
+        """Whatever moves: pictures are counted from an input to the first one that shows it."""
+        turn = [{"drag": [100 + 20 * i, 200, 120 + 20 * i, 190]} for i in range(6)]
+        for name, steps in {"camera": turn, "light": [{"key": "."}] * 12, "exposure": [{"key": "]"}] * 12,
+                            "animation": [{"key": "space"}, *turn, {"key": "space"}],
+                            "techniques": [{"key": "1"}, {"wait": 2}, {"key": "5"}, {"wait": 2}] * 6}.items():
+            self.script([{"wait": "idle"}, {"stats": "before.json"}, *steps, {"wait": "idle"}, {"stats": "after.json"}],
+                        "builtin:walker?detail=0.25", *SMALL, "--scale", "0.25", "--technique", "irradiance")
+            self.assertGreater(self.stats("after.json")["pictures"], self.stats("before.json")["pictures"] + 2, name)
+            self.assertIn(self.stats("after.json")["input_to_picture"], (1, 2), name)
 
     # ---- comparison ------------------------------------------------------------------------------------------------------
 
