@@ -46,6 +46,24 @@ Image objectColors(const LayeredImage& frame) {
   return image;
 }
 
+/// Depths, fluxes and the like may be small numbers: where all would be near black, they are raised by whole stops until the
+/// brightest hundredth is not.
+void raise(Image& image) {
+  constexpr float kDark = 0.06f, kBright = 0.75f, kMostStops = 40.0f;
+  std::vector<float> most(image.pixelCount());
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    const float* p = &image.pixels[i * std::size_t(image.channels)];
+    most[i] = std::max({p[0], p[1], p[2]});
+    if (!std::isfinite(most[i])) most[i] = 0.0f;
+  }
+  if (most.empty()) return;
+  const auto high = most.begin() + std::ptrdiff_t((most.size() - 1) * 99 / 100);
+  std::nth_element(most.begin(), high, most.end());
+  if (*high <= 0.0f || *high >= kDark) return;
+  const float gain = std::exp2(std::min(std::floor(std::log2(kBright / *high)), kMostStops));
+  for (float& value : image.pixels) value *= gain;
+}
+
 }  // namespace
 
 const std::vector<std::string>& frameLayers() {
@@ -73,7 +91,9 @@ Image shownPicture(const LayeredImage& frame, const std::string& layer, const Di
   if (showsSpheres(layer)) return frame.image(layer, {"R", "G", "B"}, kFrame);
   if (layer == "albedo") return frame.image("albedo", {"R", "G", "B"}, kFrame);
   if (layer == "object") return objectColors(frame);
-  return toneMapped(lightOf(frame, layer), display);
+  Image image = lightOf(frame, layer);
+  if (!layer.empty() && !isFrameLayer(layer)) raise(image);
+  return toneMapped(image, display);
 }
 
 }  // namespace gloam::cli

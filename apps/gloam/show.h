@@ -23,7 +23,8 @@ const std::vector<std::string>& frameLayers();
 bool isFrameLayer(const std::string& name);
 
 /// Ready for a display (writePng encodes). Light (`layer` empty, "direct", "indirect", an image of a technique) is tone
-/// mapped by `display`; normals become colours, depth grey from near (white) to far, objects get a colour each.
+/// mapped by `display`; an image of a technique that would be all but black is raised by whole stops before. Normals become
+/// colours, depth grey from near (white) to far, objects get a colour each.
 Image shownPicture(const LayeredImage& frame, const std::string& layer, const DisplayOptions& display);
 
 /// The numbers themselves: the sum as R, G, B, A, or a layer as R, G, B.
