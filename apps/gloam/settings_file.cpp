@@ -12,7 +12,7 @@ namespace gloam::cli {
 namespace {
 
 constexpr int kMostDepth = 8;
-constexpr const char* kExpected = "an object of options, such as {\"technique\": \"prt\", \"exposure\": 0.5}";
+constexpr const char* kExpected = "an object of options, such as {\"exposure\": 0.5}";
 
 Json readSettings(const std::string& file) {
   Json json = readJsonFile(file, kMostDepth, kExpected);
