@@ -16,8 +16,7 @@ namespace {
 constexpr double kLeastFrameSeconds = 1.0 / 60.0;
 constexpr double kInputSeconds = 0.25;                        // frames go on after an input
 constexpr double kRestSeconds = 0.5, kProgressSeconds = 0.1;  // between two frames that show no new picture
-constexpr double kSharedSeconds =
-    0.05;  // the same where the cores that draw the window draw the picture, too
+constexpr double kSharedSeconds = 0.05;  // after an input, where the cores that draw it draw the picture, too
 constexpr int kMostRecoveries = 3;
 
 std::string glfw_problem;
@@ -181,8 +180,9 @@ bool App::update() {
   session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
   const double since = glfwGetTime() - drawn_s_;
   if (uploaded_ != session_->pictureRevision() || (script_ && !script_->waits())) return true;
-  const bool answered = input_s_ <= drawn_s_ || session_->drawing();
-  if (answered && device_->software() && since < kSharedSeconds) return false;
+  const bool answered = input_s_ <= drawn_s_;
+  const double least = answered ? kProgressSeconds : session_->drawing() ? kSharedSeconds : 0.0;
+  if (device_->software() && since < least) return false;
   const bool fresh =
       glfwGetTime() - input_s_ < kInputSeconds || ImGui::IsAnyMouseDown() || session_->moving();
   return fresh || since > (session_->idle() ? kRestSeconds : kProgressSeconds);

@@ -88,6 +88,7 @@ void techniqueSection(Session& session, UiState& ui) {
     }
     ImGui::EndCombo();
   }
+  noteControl(ui, "technique");
   dim(wanted.summary);
   if (session.waitsFor(kLeft)) dim(fmt::format("being prepared; {} is shown", session.state.left.info->name));
   const Coverage covers = coverageWith(wanted, session.wanted[kLeft].settings);
@@ -188,6 +189,7 @@ void viewSection(Session& session, UiState& ui) {
     }
     ImGui::EndCombo();
   }
+  noteControl(ui, "show");
   label("resolution", "share of the window's pixels; auto draws fewer while something moves");
   int percent = int(std::lround(session.resolution.fixed * 100.0f));
   if (ImGui::SliderInt("##scale", &percent, 0, 100, percent == 0 ? "auto" : "%d %%")) {

@@ -35,8 +35,11 @@ std::string rightName(const Session& session) {
   if (session.state.split == Split::kTechnique) return session.state.right.info->name;
   const ReferenceView* reference = session.reference();
   if (reference == nullptr) return "reference";
-  std::string text = fmt::format("reference, {} samples", reference->samples);
-  if (reference->error) text += fmt::format(", error {:.1f} %", reference->error->relative_rmse * 100.0);
+  std::string text =
+      fmt::format("reference, {} sample{}", reference->samples, reference->samples == 1 ? "" : "s");
+  if (reference->error)
+    text += fmt::format(", error {:.1f} %, noise {:.1f} %", reference->error->relative_rmse * 100.0,
+                        reference->noise * 100.0);
   return text;
 }
 

@@ -126,15 +126,14 @@ void dim(const std::string& text) {
 }
 
 void fittedLine(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return ImGui::TextUnformatted(text.c_str());
   std::string cut = text;
-  while (cut.size() > 1 && ImGui::CalcTextSize((cut + "…").c_str()).x > width &&
-         ImGui::CalcTextSize(cut.c_str()).x > width) {
-    do {
-      cut.pop_back();
-    } while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80);  // whole letters
-  }
-  ImGui::TextUnformatted((cut.size() < text.size() ? cut + "…" : cut).c_str());
-  if (cut.size() < text.size() && ImGui::IsItemHovered()) helpMark(text.c_str());
+  do {
+    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80) cut.pop_back();
+    if (!cut.empty()) cut.pop_back();  // a whole letter
+  } while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width);
+  ImGui::TextUnformatted((cut + "…").c_str());
+  if (ImGui::IsItemHovered()) helpMark(text.c_str());
 }
 
 void noteControl(UiState& ui, const std::string& name) {
