@@ -17,13 +17,17 @@ struct EmissionPoint {
   float unused = 0.0f;
 };
 
+/// Proxies of a thing taken together, coarsest first: a level holds each of them once, in groups of their numbers within the thing.
+using ProxyLevels = std::vector<std::vector<std::vector<int>>>;
+
 /// What a proxy sends besides where it stands (FrameInputs::proxies, in their order).
 struct ProxyEmission {
-  int object = 0;                     ///< proxies of one number are neighbours in the list and one thing
-  int first = 0, count = 0;           ///< that thing's proxies
-  glm::mat3 world_from_shape{1.0f};   ///< orthogonal: the axes of the coefficients
-  const sh::ShRgb* albedo = nullptr;  ///< four bands
-  const sh::ShRgb* glow = nullptr;    ///< four bands
+  int object = 0;                       ///< proxies of one number are neighbours in the list and one thing
+  int first = 0, count = 0;             ///< that thing's proxies
+  glm::mat3 world_from_shape{1.0f};     ///< orthogonal: the axes of the coefficients
+  const sh::ShRgb* albedo = nullptr;    ///< four bands
+  const sh::ShRgb* glow = nullptr;      ///< four bands
+  const ProxyLevels* levels = nullptr;  ///< of its thing; null: none
 };
 
 /// A rectangle of something that has no proxies: ground, a wall.

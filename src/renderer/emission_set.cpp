@@ -32,6 +32,30 @@ std::vector<std::uint32_t> meetingPairs(const SphereSet& set, const std::vector<
   return bits;
 }
 
+/// Each level of the tree over a set's spheres as they were fitted (SS-3), so that motion changes no groups.
+frame::ProxyLevels levelsOf(const SphereSet& set) {
+  frame::ProxyLevels levels;
+  const SphereTree tree = makeSphereTree(set.spheres);
+  std::vector<std::vector<int>> leaves(tree.nodes.size());
+  for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+    const SphereTree::Node& node = tree.nodes[n];
+    if (node.children == 0) leaves[n] = {node.sphere};
+    for (int c = 0; c < node.children; ++c) {
+      const std::vector<int>& of_child = leaves[std::size_t(node.first_child + c)];
+      leaves[n].insert(leaves[n].end(), of_child.begin(), of_child.end());
+    }
+  }
+  for (int depth = 0;; ++depth) {
+    std::vector<std::vector<int>> groups;
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+      const SphereTree::Node& node = tree.nodes[n];
+      if (node.depth == depth || (node.children == 0 && node.depth < depth)) groups.push_back(leaves[n]);
+    }
+    if (groups.size() >= set.spheres.size()) return levels;
+    levels.push_back(std::move(groups));
+  }
+}
+
 /// The first instance of a node's, given one of them.
 int firstOfNode(const PosedScene& posed, int instance) {
   while (instance > 0 &&
@@ -92,6 +116,7 @@ EmissionSet::EmissionSet(const Scene& scene, const SceneSpheres& spheres, const 
     }
     set.words = int(given.spheres.size() + 31) / 32;
     set.meets = meetingPairs(given, shares.at(s), set.words);
+    set.levels = levelsOf(given);
     sets_.push_back(std::move(set));
   }
   flats_ = FlatPatches(scene, spheres, kSendingPatches, kBlockingPatches);
@@ -133,7 +158,7 @@ frame::Emission EmissionSet::posed(const PosedScene& posed, std::span<const Pose
     for (std::size_t i = first; i < end; ++i) {
       const auto s = std::size_t(spheres[i].sphere);
       emission.proxies.push_back({object, int(first), int(end - first), spheres[i].world_from_shape,
-                                  &set.spheres[s].albedo, &set.spheres[s].glow});
+                                  &set.spheres[s].albedo, &set.spheres[s].glow, &set.levels});
       for (int j = 0; j < kEmissionDirections; ++j) {
         const Point& point = set.points[s * kEmissionDirections + std::size_t(j)];
         emission.points.push_back(point.part == kNone ? frame::EmissionPoint{}

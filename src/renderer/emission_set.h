@@ -35,6 +35,7 @@ class EmissionSet {
     std::vector<SphereEmission> spheres;
     int words = 0;
     std::vector<std::uint32_t> meets;  // [sphere][word]
+    frame::ProxyLevels levels;
   };
   static frame::EmissionPoint place(const Point& point, const Instance& instance, const glm::mat3& normals);
 

@@ -25,6 +25,17 @@ const std::vector<Option>& options() {
   static const std::vector<Option> options = {
       spheresOption(),
       divisorOption(),
+      {.name = "receivers",
+       .default_value = std::string("pixels"),
+       .choices = {"pixels", "vertices"},
+       .help = "where light is found: at pixels, one in a square, or at the vertices of the scene (the "
+               "paper's), which are to be dense enough"},
+      {.name = "hierarchy",
+       .default_value = 0.0f,
+       .minimum = 0.0,
+       .maximum = 1.0,
+       .help = "sine of a half-angle: spheres of one object that look smaller together, from a cluster of "
+               "8 x 8 receivers, count as one; 0: never. With blocking per_object and visibility mean"},
       {.name = "blocking",
        .default_value = std::string("per_object"),
        .choices = {"per_object", "per_sphere"},
@@ -79,12 +90,16 @@ int visibilityOf(const Settings& settings) {
 
 bool lampsAreBalls(const frame::FrameInputs& inputs, const Settings& settings) {
   const std::vector<frame::LightRow>& lamps = inputs.shadow_maps.lights;
-  if (lamps.empty() || settings.number("lamp_radius") == 0.0f) return false;
+  if (settings.number("lamp_radius") == 0.0f) return false;
+  if (lamps.empty()) {
+    inputs.warnings.push_back("spherical_lights.lamp_radius: there are no lamps; meshes that glow need none");
+    return false;
+  }
   const bool points =
       std::ranges::all_of(lamps, [](const frame::LightRow& lamp) { return lamp.kind == frame::kLightPoint; });
   if (!points)
     inputs.warnings.push_back(
-        "spherical_lights: lamp_radius: there are lamps that are not points; all shine by shadow maps");
+        "spherical_lights.lamp_radius: there are lamps that are not points; all shine by shadow maps");
   return points;
 }
 
@@ -173,14 +188,15 @@ Sending SphericalLights::recordSending(const Step& step) {
         .dispatchOver(int(patches));
   }
   if (count == 0) return {.sent = step.glow};
-  const gpu::BufferRef sent =
-      graph.create("spherical_lights.sent", gpu::BufferDesc{.bytes = count * sizeof(SentRow)});
+  const gpu::BufferRef sent = graph.create(
+      "spherical_lights.sent", gpu::BufferDesc{.bytes = (count + step.params.coarse) * sizeof(SentRow)});
   graph.compute("spherical_lights.emit", spherical_lights_emit_spv)
       .read("arriving", arriving)
       .read("cells", cells_)
       .read("senders", uploadRows(graph, "spherical_lights.senders", rows.senders))
       .write("sent", sent)
       .dispatch(count);
+  recordCoarse(step, sent);
   return {.sent = sent, .points = points, .arriving = arriving};
 }
 
@@ -197,6 +213,10 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   listNeighbours(rows, blockingOf(settings));
   const auto count = std::uint32_t(rows.spheres.size());
   const auto patches = std::uint32_t(rows.sending_patches.size());
+  const bool hierarchy = settings.number("hierarchy") > 0.0f && settings.flag("indirect") &&
+                         quick(blockingOf(settings), visibilityOf(settings), rows.objects.size()) &&
+                         blockingOf(settings) == kPerObject;
+  if (hierarchy) addCoarse(rows, *inputs.emission);
   const gpu::BufferRef patch_radiance = graph.create(
       "spherical_lights.patch_radiance", gpu::BufferDesc{.bytes = std::max(1u, patches) * sizeof(glm::vec3)});
   if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
@@ -210,17 +230,22 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .repair = settings.flag("repair"),
       .lamps_are_balls = balls,
       .indirect = settings.flag("indirect") && count + patches > 0,
+      .at_vertices = settings.choice("receivers") == "vertices",
+      .coarse_limit = settings.number("hierarchy"),
       .light = graph.uploadOne("spherical_lights.light", lightRows(inputs.environment.sh(), settings)),
       .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),
       .objects = uploadRows(graph, "spherical_lights.objects", rows.objects),
       .meets = uploadRows(graph, "spherical_lights.meets", rows.meets),
       .listed = uploadRows(graph, "spherical_lights.listed", rows.listed),
       .glow = uploadRows(graph, "spherical_lights.glow", rows.glow),
+      .levels = uploadRows(graph, "spherical_lights.levels", rows.levels),
+      .coarse = uploadRows(graph, "spherical_lights.coarse", rows.coarse),
+      .leaves = uploadRows(graph, "spherical_lights.leaves", rows.leaves),
       .blocking_patches = uploadRows(graph, "spherical_lights.blocking_patches", rows.blocking_patches),
       .sending_patches = uploadRows(graph, "spherical_lights.sending_patches", rows.sending_patches),
       .patch_radiance = patch_radiance,
       .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words),
-                 std::uint32_t(rows.blocking_patches.size()), patches}};
+                 std::uint32_t(rows.blocking_patches.size()), patches, std::uint32_t(rows.coarse.size())}};
   const Sending sending = step.indirect ? recordSending(step) : Sending{.sent = step.glow};
   if (sending.arriving) recordView(step, sending);
   return recordGathering(step, sending.sent);

@@ -32,16 +32,22 @@ Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& point
         name + what, gpu::ImageDesc{.format = format, .width = points.width, .height = points.height});
   };
   const Pictures got{image("direct", kHalves), image("indirect", kHalves)};
-  const bool quick =
-      step.visibility == kMean && step.blocking != kPerSphere && step.rows.objects.size() <= kMostKept;
+  const bool is_quick = quick(step.blocking, step.visibility, step.rows.objects.size());
+  const bool hierarchy = step.params.coarse > 0 && !points.groups;  // listed ones are no clusters
+  Cuts cuts{step.levels, step.levels};
+  if (hierarchy) cuts = recordCuts(step, sent, points.position);
   const auto groups = std::bit_ceil(std::max(8u, std::uint32_t(step.rows.objects.size())));
   auto& pass =
       step.graph.compute(points.groups ? "spherical_lights.gather_listed" : "spherical_lights.gather",
-                         quick ? spherical_lights_receive_spv : spherical_lights_gather_spv);
-  if (!quick) {
+                         is_quick ? spherical_lights_receive_spv : spherical_lights_gather_spv);
+  if (!is_quick) {
     pass.specialize("visibility_kind", step.visibility).read("meets", step.meets);
   } else {
-    pass.specialize("most_groups", groups).read("listed", step.listed);
+    pass.specialize("most_groups", groups)
+        .specialize("hierarchy", hierarchy)
+        .read("listed", step.listed)
+        .read("cuts", cuts.levels)
+        .read("ratios", cuts.ratios);
   }
   pass.specialize("blocking", step.blocking)
       .specialize("has_indirect", step.indirect)
@@ -127,9 +133,33 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
   return full;
 }
 
+Pictures atVertices(const Step& step, gpu::BufferRef sent) {
+  const VertexPoints vertices = recordVertices(step);
+  const Pictures lit = recordPoints(
+      step, sent, {vertices.position, vertices.normal, vertices.position.width(), vertices.position.height()},
+      "spherical_lights.vertex_");
+  const frame::GBuffer& gbuffer = step.inputs.gbuffer;
+  const auto image = [&](const char* name) {
+    return step.graph.create(
+        name, gpu::ImageDesc{.format = kHalves, .width = gbuffer.width, .height = gbuffer.height});
+  };
+  const Pictures full{image("spherical_lights.direct_full"), image("spherical_lights.indirect_full")};
+  recordInterpolation(step, vertices, lit.direct, lit.indirect, full.direct, full.indirect);
+  return full;
+}
+
+frame::Lighting lightingOf(const Step& step, const Pictures& got, int divisor) {
+  frame::Lighting lighting;
+  lighting.has_local_direct = step.lamps_are_balls;
+  lighting.irradiance.push_back({got.direct, frame::Path::kDirect, divisor, true});
+  if (step.indirect) lighting.irradiance.push_back({got.indirect, frame::Path::kIndirect, divisor, true});
+  return lighting;
+}
+
 }  // namespace
 
 frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent) {
+  if (step.at_vertices) return lightingOf(step, atVertices(step, sent), 1);
   const frame::ReceiverLevel& level = step.inputs.receivers.at(step.divisor);
   Pictures got = recordPoints(step, sent, {level.position, level.normal_depth, level.width, level.height},
                               "spherical_lights.");
@@ -138,11 +168,7 @@ frame::Lighting recordGathering(const Step& step, gpu::BufferRef sent) {
     got = recordUpsampling(step, sent, level, got);
     divisor = 1;
   }
-  frame::Lighting lighting;
-  lighting.has_local_direct = step.lamps_are_balls;
-  lighting.irradiance.push_back({got.direct, frame::Path::kDirect, divisor, true});
-  if (step.indirect) lighting.irradiance.push_back({got.indirect, frame::Path::kIndirect, divisor, true});
-  return lighting;
+  return lightingOf(step, got, divisor);
 }
 
 }  // namespace gloam::spherical_lights

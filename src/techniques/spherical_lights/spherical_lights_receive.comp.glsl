@@ -10,8 +10,11 @@
 
 layout(constant_id = 0) const int blocking = 0;
 layout(constant_id = 1) const uint most_groups = 32u;
+layout(constant_id = 4) const bool hierarchy = false;
 
 layout(scalar, set = 0, binding = 5) readonly buffer Listed { uint at[]; } listed;
+layout(scalar, set = 0, binding = 6) readonly buffer Cuts { LevelRow at[]; } cuts;
+layout(scalar, set = 0, binding = 7) readonly buffer Ratios { vec4 at[]; } ratios;
 
 #include "techniques/spherical_lights/spherical_lights_receive.glsl"
 

@@ -5,34 +5,27 @@
 // and long loops run over the same rows for all receivers, which is what software drivers are quick at. Groups (objects, or single
 // spheres) are put in order by rank; sums of logs are kept along it, so each sphere finds what stands before its group as one sum,
 // however many there are (SL-14). Of its own object a sphere adds what it does not meet (per object) or takes back what it meets (per
-// sphere): its list. Includers declare the constants blocking, most_groups, has_indirect and glows, the buffers spheres, objects, sent,
-// glow, listed and those of patches, the uniform block light, and push push.params.
+// sphere): its list. Includers declare the constants blocking, most_groups, has_indirect, glows and hierarchy, the buffers spheres, objects,
+// sent, glow, listed, cuts, ratios and those of patches, the uniform block light, and push push.params.
 #ifndef GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
-#include "techniques/spherical_lights/spherical_lights_blockers.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
+#include "techniques/spherical_lights/spherical_lights_within.glsl"
 #include "frame/light_peak.glsl"
 
-/// Mean over a disc of the logs of those of its list that stand before it; `bands`: of a mean over the disc.
-float logListed(vec3 position, vec3 normal, uint i, vec3 direction, vec4 bands) {
-  float sum = 0.0;
-  vec3 to_i = spheres.at[i].center - position;
-  float own = dot(to_i, to_i);
-  uint first = spheres.at[i].first_listed, end = first + spheres.at[i].listed;
-  for (uint k = first; k < end; ++k) {
-    uint j = listed.at[k];
-    vec3 to_j = spheres.at[j].center - position;
-    float far = dot(to_j, to_j);
-    bool nearer = far < own || (far == own && j < i);
-    SeenSphere seen = seenSphere(position, normal, spheres.at[j].center, spheres.at[j].radius);
-    float log_there = dot(logWeights(seen.sin_half_angle), bands * zonalAt(dot(seen.direction, direction)));
-    sum += nearer ? log_there : 0.0;
-  }
-  return sum;
+/// Which spheres stand for an object, and by how much what they send (and, w, block) is scaled: SL-8, where `hierarchy`.
+LevelRow spheresOf(uint cluster, uint o) {
+  if (hierarchy) return cuts.at[cluster * push.params.objects + o];
+  return LevelRow(objects.at[o].first, objects.at[o].count);
+}
+vec4 ratioOf(uint cluster, uint i) {
+  if (!hierarchy || i < push.params.spheres) return vec4(1.0);
+  return ratios.at[cluster * push.params.coarse + i - push.params.spheres];
 }
 
 Gathered receive(vec3 position, vec3 normal) {
+  uint cluster = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   Gathered got = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
   float kept[16u * most_groups], far[most_groups];
   uint order[most_groups];
@@ -40,8 +33,9 @@ Gathered receive(vec3 position, vec3 normal) {
   Sh4 all = kNothing;
   for (uint o = 0u; o < push.params.objects; ++o) {
     Sh4 own = kNothing;
-    uint first = objects.at[o].first, end = first + objects.at[o].count;
-    for (uint i = first; i < end; ++i) own = plus(own, logOf(position, normal, i));
+    LevelRow cut = spheresOf(cluster, o);
+    for (uint i = cut.first; i < cut.first + cut.count; ++i)
+      own = plus(own, scaled(logOf(position, normal, i), ratioOf(cluster, i).w));
     all = plus(all, own);
     if (send) {
       float f[16] = GLOAM_ARRAY_OF(own);
@@ -70,8 +64,8 @@ Gathered receive(vec3 position, vec3 normal) {
     float f[16];
     for (uint c = 0u; c < 16u; ++c) f[c] = kept[16u * o + c];
     Sh4 before = GLOAM_SH4_OF(f);
-    uint first = objects.at[o].first, end = first + objects.at[o].count;
-    for (uint i = first; i < end; ++i) {
+    LevelRow cut = spheresOf(cluster, o);
+    for (uint i = cut.first; i < cut.first + cut.count; ++i) {
       SeenSphere seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
       vec4 disc = discWeights(seen.sin_half_angle), bands = disc / max(disc.x, 1e-12);
       Sh4 y = basisAt(seen.direction);
@@ -81,7 +75,7 @@ Gathered receive(vec3 position, vec3 normal) {
       float share = open * exp(min(log_before, 0.0));
       Sh4 f = averageAt(seen.sin_half_angle, y);
       if (has_indirect) {
-        vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
+        vec3 radiance = GLOAM_RADIANCE(sent.at[i]) * ratioOf(cluster, i).rgb;
         got.indirect += radiance * share;
         got.unblocked += radiance * open;
       }

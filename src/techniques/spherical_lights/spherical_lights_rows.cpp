@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "techniques/spherical_lights/spherical_lights_tables.h"
 
 namespace gloam::spherical_lights {
@@ -54,7 +56,7 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
                             std::uint32_t(sent.first), std::uint32_t(sent.count), 0u, 0u, 1.0f});
     if (int(i) == sent.first)
       rows.objects.push_back({middleOf(proxies.subspan(i, std::size_t(sent.count))),
-                              std::uint32_t(sent.first), std::uint32_t(sent.count)});
+                              std::uint32_t(sent.first), std::uint32_t(sent.count), 0u, 0u});
     rows.senders.push_back(senderOf(sent));
     if (emission.glows) rows.glow.push_back(glowOf(sent));
   }
@@ -82,7 +84,7 @@ void listNeighbours(Rows& rows, int blocking) {
   if (blocking == kPerObject) return;
   rows.objects.clear();
   for (std::uint32_t i = 0; i < rows.spheres.size(); ++i)
-    rows.objects.push_back({rows.spheres[i].center, i, 1u});
+    rows.objects.push_back({rows.spheres[i].center, i, 1u, 0u, 0u});
 }
 
 void addPatchPoints(Rows& rows) {
@@ -97,16 +99,18 @@ void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, 
   int within = 0;
   for (const frame::LightRow& lamp : lamps) {
     if (lamp.kind != frame::kLightPoint) continue;
-    for (std::size_t i = 0; i < things; ++i) {
-      if (glm::distance(lamp.position, rows.spheres[i].center) >= rows.spheres[i].radius) continue;
-      ++within;
-      break;
+    const auto end = rows.spheres.begin() + std::ptrdiff_t(things);
+    if (std::any_of(rows.spheres.begin(), end, [&](const SphereRow& sphere) {
+          return glm::distance(lamp.position, sphere.center) < sphere.radius;
+        })) {
+      ++within;  // no order of centres tells that all of the object stands before it
+      continue;
     }
     const auto index = std::uint32_t(rows.spheres.size());
     rows.glow.resize(rows.spheres.size());
     rows.spheres.push_back(
         {lamp.position, radius, std::uint32_t(rows.objects.size()), index, 1u, 0u, 0u, 0.0f});
-    rows.objects.push_back({lamp.position, index, 1u});
+    rows.objects.push_back({lamp.position, index, 1u, 0u, 0u});
     SentRow glow{};  // a ball of radiance L has the intensity L pi r^2
     glow.at[0] = lamp.intensity / (3.14159265f * radius * radius) * sh::zonalFactor(0);
     rows.glow.push_back(glow);
@@ -116,8 +120,9 @@ void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, 
   }
   if (within > 0)
     warnings.push_back(
-        fmt::format("spherical_lights: {} lamp{} within the spheres of an object, which hide {}", within,
-                    within == 1 ? " stands" : "s stand", within == 1 ? "it" : "them"));
+        fmt::format("spherical_lights.lamp_radius: {} lamp{} within the spheres of an object, which hide {}; "
+                    "with 0, shadow maps tell what gets out",
+                    within, within == 1 ? " stands" : "s stand", within == 1 ? "it" : "them"));
 }
 
 void warnOfMeetingObjects(const Rows& rows, Warnings& warnings) {

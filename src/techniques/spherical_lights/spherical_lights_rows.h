@@ -27,6 +27,9 @@ struct Rows {
   std::vector<PatchRow> sending_patches,
       blocking_patches;               ///< kPatchPoints points each of the first, after those of spheres
   std::vector<std::uint32_t> listed;  ///< of each sphere, of its object: see listNeighbours
+  std::vector<LevelRow> levels;       ///< see addCoarse
+  std::vector<CoarseRow> coarse;
+  std::vector<std::uint32_t> leaves;
 };
 
 /// Throws Error where proxies and emission do not fit together.
@@ -34,14 +37,18 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
 /// Samples of patches; to be called when all spheres are there.
 void addPatchPoints(Rows& rows);
 
-/// SL-9: adds point lamps as balls of that radius (metres) that glow as brightly and block nothing; says which stand within an
-/// object. Lamps of other kinds are left out.
+/// SL-9: adds point lamps as balls of that radius (metres) that glow as brightly and block nothing; leaves out, and tells, which stand
+/// within an object. Lamps of other kinds are left out.
 void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, Warnings& warnings);
 
 /// SL-6: fills each sphere's list with those of its object that it does not meet (kPerObject), or those others that it meets.
 /// Per sphere, each
 /// then counts as an object.
 void listNeighbours(Rows& rows, int blocking);
+
+/// SL-8: spheres that bound groups of an object's, level by level, after all others; to be called last. Their glow is the mean over
+/// those that they stand for by area, as what they send will be.
+void addCoarse(Rows& rows, const frame::Emission& emission);
 
 /// SL-6: spheres of different objects that meet, told by how many pairs of objects do; nothing where none do.
 void warnOfMeetingObjects(const Rows& rows, Warnings& warnings);

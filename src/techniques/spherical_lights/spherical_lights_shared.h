@@ -53,8 +53,25 @@ struct ObjectRow {
   vec3 center;
   uint first;
   uint count;
+  uint first_level;
+  uint levels;
 };
-GLOAM_SHARED_SIZE(ObjectRow, 20)
+GLOAM_SHARED_SIZE(ObjectRow, 28)
+
+/// Spheres that stand for all of an object together: neighbours among the coarse ones, which follow all others.
+struct LevelRow {
+  uint first;
+  uint count;
+};
+GLOAM_SHARED_SIZE(LevelRow, 8)
+/// Which spheres a coarse one stands for: part of a list.
+struct CoarseRow {
+  uint first_leaf;
+  uint leaves;
+};
+GLOAM_SHARED_SIZE(CoarseRow, 8)
+/// Receivers of a cluster, a side; a work group.
+GLOAM_SHARED_CONST uint kClusterSide = 8u;
 
 /// A point of a surface that lights a sphere, in the world.
 struct PointRow {
@@ -87,6 +104,8 @@ GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 /// dispatches (8, 1, 1 at first).
 GLOAM_SHARED_CONST uint kPointColumns = 64u;
 GLOAM_SHARED_CONST uint kPointRow = 512u;
+/// Vertices that receive stand in pictures of that many columns.
+GLOAM_SHARED_CONST uint kVertexColumns = 1024u;
 struct LightRows {
   vec3 shade[144];  // Q[9 i + j]; without the peak
   LightPeak peak;
@@ -101,18 +120,29 @@ struct GatherParams {
   uint words;  // of a sphere's bits: which it meets
   uint blocking_patches;
   uint sending_patches;
+  uint coarse;  // spheres that follow
 };
-GLOAM_SHARED_SIZE(GatherParams, 20)
+GLOAM_SHARED_SIZE(GatherParams, 24)
+struct CutParams {
+  GatherParams params;
+  float limit;  // sine of the half-angle
+};
+GLOAM_SHARED_SIZE(CutParams, 28)
 struct FlatParams {
   uint patches;
   uint first_point;
 };
 GLOAM_SHARED_SIZE(FlatParams, 8)
+struct VertexParams {
+  uint instances;
+  uint vertices;
+};
+GLOAM_SHARED_SIZE(VertexParams, 8)
 struct SampleParams {
   GatherParams params;
   uint points;
 };
-GLOAM_SHARED_SIZE(SampleParams, 24)
+GLOAM_SHARED_SIZE(SampleParams, 28)
 
 GLOAM_SHARED_END
 #endif

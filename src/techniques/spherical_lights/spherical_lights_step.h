@@ -15,11 +15,17 @@ struct Step {
   const Rows& rows;
   int blocking, visibility;  ///< kPerObject …, kMean …
   int divisor;
-  bool repair, lamps_are_balls, indirect;
-  gpu::BufferRef light, spheres, objects, meets, listed, glow, blocking_patches, sending_patches,
-      patch_radiance;
-  GatherParams params;
+  bool repair, lamps_are_balls, indirect, at_vertices;
+  float coarse_limit;
+  gpu::BufferRef light, spheres, objects, meets, listed, glow, levels, coarse, leaves, blocking_patches,
+      sending_patches, patch_radiance;
+  GatherParams params;  ///< coarse: 0 where no spheres are taken together
 };
+
+/// Whether the kernel that keeps sums along an order of groups takes these.
+inline bool quick(int blocking, int visibility, std::size_t groups) {
+  return visibility == kMean && blocking != kPerSphere && groups <= kMostKept;
+}
 
 inline constexpr VkFormat kHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
 
@@ -36,6 +42,23 @@ struct Sending {
   gpu::BufferRef points = {},
                  arriving = {};  ///< PointRow, and radiance of white there, a sample; none without spheres
 };
+
+/// SL-8: what coarse spheres send, in `sent` after all others.
+void recordCoarse(const Step& step, gpu::BufferRef sent);
+/// SL-8: of each cluster of receivers, a LevelRow an object, and a vec4 a coarse sphere: reflection ratio, and that of logs.
+struct Cuts {
+  gpu::BufferRef levels, ratios;
+};
+Cuts recordCuts(const Step& step, gpu::BufferRef sent, gpu::ImageRef position);
+
+/// SL-10: all vertices of the scene as a picture of points, kVertexColumns wide; and back from there to the pixels.
+struct VertexPoints {
+  gpu::ImageRef position, normal;
+  gpu::BufferRef first;  ///< an instance: its first point
+};
+VertexPoints recordVertices(const Step& step);
+void recordInterpolation(const Step& step, const VertexPoints& vertices, gpu::ImageRef vertex_direct,
+                         gpu::ImageRef vertex_indirect, gpu::ImageRef direct, gpu::ImageRef indirect);
 
 /// Where step.inputs.show asks for one: a picture of spheres and samples, drawn for nobody else.
 void recordView(const Step& step, const Sending& sending);

@@ -323,6 +323,68 @@ TEST(SphericalLights, CreasesAreLitFromScratch) {
   EXPECT_LT(errorOf("true"), 1e-3);
 }
 
+/// A thing of two balls, and one of one, that stand far from the ground's middle.
+struct Pair : Balls {
+  Pair()
+      : Balls({{{6.0f, 0.9f, 0.2f}, 0.4f, {0.8f, 0.3f, 0.2f}, 0},
+               {{6.5f, 1.5f, 0.3f}, 0.35f, {0.2f, 0.7f, 0.3f}, 0},
+               {{-0.6f, 0.7f, 0.0f}, 0.4f, {0.5f, 0.5f, 0.9f}, 1}}) {
+    emission.proxies[0].levels = emission.proxies[1].levels = &levels;
+  }
+  frame::ProxyLevels levels{{{0, 1}}};
+};
+
+// SL-8: what is far is as bright and dark as its parts, by its ratio; what is near is itself.
+TEST(SphericalLights, HierarchyKeepsTheLight) {
+  const Scene scene = frame::planeScene("preetham?elevation=35");
+  const Pair pair;
+  const Picture each = draw(scene, frame::kAbove, pair);
+  const Picture never = draw(scene, frame::kAbove, pair, {{"hierarchy", "0.0001"}});
+  const Picture some = draw(scene, frame::kAbove, pair, {{"hierarchy", "0.3"}});
+  EXPECT_EQ(never.indirect, each.indirect);
+  EXPECT_EQ(never.direct, each.direct);
+  EXPECT_NE(some.indirect, each.indirect) << "nothing is taken together";
+  float off = 0.0f, most = 0.0f, direct_off = 0.0f;
+  for (std::size_t i = 0; i < each.pixels(); ++i) {
+    const glm::vec3 d = glm::abs(Picture::at(some.indirect, i) - Picture::at(each.indirect, i));
+    off = std::max({off, d.x, d.y, d.z});
+    most = std::max(most, Picture::at(each.indirect, i).x);
+    direct_off = std::max(direct_off, std::abs(some.direct[4 * i] / each.direct[4 * i] - 1.0f));
+  }
+  EXPECT_LT(off, 0.02f * most);
+  EXPECT_LT(direct_off, 0.01f);
+}
+
+// SL-10: on a plane that is dense enough, light found at vertices is light found at pixels.
+TEST(SphericalLights, VerticesReceive) {
+  SceneBuilder builder("ground");
+  builder.place("ground", shapes::moved(shapes::ground(8, 8, 64, 64), {0.5f, 0, 0}),
+                builder.diffuse("grey", glm::vec3(0.5f)));
+  builder.sky("preetham?elevation=35");
+  const Scene scene = builder.finish();
+  const Balls balls({{{0.0f, 0.8f, 0.0f}, 0.5f, {0.8f, 0.3f, 0.2f}, 0}});
+  const auto drawAt = [&](const char* receivers, const char* image) {
+    frame::TestFrame frame(scene);
+    SphericalLights technique(gpu::testDevice());
+    Settings settings(info().options);
+    settings.set("divisor", "1");
+    settings.set("receivers", receivers);
+    frame.draw(pose(scene, 0.0f), frame::kAbove,
+               {.width = kSize, .height = kSize, .proxies = balls.proxies, .emission = &balls.emission},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 return technique.record(graph, inputs, settings);
+               });
+    return frame.floats(image);
+  };
+  for (const std::string part : {"direct", "indirect"}) {
+    const std::vector<float> want = drawAt("pixels", ("spherical_lights." + part).c_str());
+    const std::vector<float> got = drawAt("vertices", ("spherical_lights." + part + "_full").c_str());
+    ASSERT_EQ(got.size(), want.size());
+    const float most = *std::ranges::max_element(want);
+    for (std::size_t i = 0; i < want.size(); ++i) ASSERT_NEAR(got[i], want[i], 0.01f * most) << part;
+  }
+}
+
 /// The plane with one point lamp of 10 W/sr above it.
 Scene lampScene(const glm::vec3& place) {
   SceneBuilder builder("lamp");
@@ -349,6 +411,7 @@ TEST(SphericalLights, LampsOfARadiusAreBalls) {
   const Picture hidden = draw(scene, frame::kAbove, round, balls_of_light);
   ASSERT_EQ(hidden.warnings.size(), 1u);
   EXPECT_NE(hidden.warnings[0].find("within"), std::string::npos);
+  EXPECT_EQ(hidden.direct[4 * middle], 0.0f);
   // Of radius 0 it stays a point with a shadow map, which frame/ shades: nothing of it here.
   EXPECT_EQ(draw(scene, frame::kAbove, Balls({}), {{"lamp_radius", "0"}}).direct[4 * middle], 0.0f);
 }
