@@ -128,7 +128,9 @@ constexpr Row kProxies[] = {
     {"PX-8", "Upsampling that respects depth and normals; pixels that no coarse sample fits are shaded anew",
      kYes, "", "gloam render builtin:walker --technique proxies --proxies.divisor 8",
      "proxies: CoarseReceiversShowTheSamePicture, SlantedGroundIsUpsampledAsSmoothlyAsAPicture"},
-    {"PX-9", "Each proxy with its own albedo; moving and skinned casters; ground and walls that only receive",
+    {"PX-9",
+     "Each proxy with its own albedo; moving and skinned casters; ground and walls receive, and block as "
+     "rectangles",
      kYes, "", "gloam render builtin:walker --technique proxies --animate 0:4 --turn-sky 360 -o walk.mp4",
      "renderer: ProxySet, ShadowShares, SpheresScene"},
     {"PX-10", "Beyond: receivers placed where the picture needs them"},
