@@ -88,11 +88,12 @@ void DrawWorker::run() {
     next_.reset();
     busy_ = true;
     lock.unlock();
-    std::shared_ptr<const Drawn> drawn = draw(request);
+    std::shared_ptr<Drawn> drawn = draw(request);
     lock.lock();
     busy_ = false;
+    if (finished_) drawn->answers = finished_->answers;
+    drawn->answers.emplace_back(request.serial, ++pictures_);
     finished_ = std::move(drawn);
-    ++pictures_;
     if (renderer_) validation_ = renderer_->validationMessages();
     lock.unlock();
     wake_();
@@ -102,7 +103,7 @@ void DrawWorker::run() {
   renderer_.reset();  // where it was made
 }
 
-std::shared_ptr<const Drawn> DrawWorker::draw(const Request& request) {
+std::shared_ptr<Drawn> DrawWorker::draw(const Request& request) {
   auto drawn = std::make_shared<Drawn>();
   const ViewState& state = request.state;
   drawn->serial = request.serial;

@@ -11,6 +11,8 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "view_state.h"
 
@@ -26,6 +28,8 @@ struct Picture {
 
 struct Drawn {
   std::uint64_t serial = 0;  ///< of the state that it shows
+  /// Serial and number (the first picture is 1) of this one, after those that it overtook before they were taken.
+  std::vector<std::pair<std::uint64_t, int>> answers;
   int width = 0, height = 0;
   Picture left, right;
   bool split = false;
@@ -68,7 +72,7 @@ class DrawWorker {
     ViewState state;
   };
   void run();
-  std::shared_ptr<const Drawn> draw(const Request& request);
+  std::shared_ptr<Drawn> draw(const Request& request);
   void bring(const ViewState& state, Drawn& drawn);
   RenderedFrame renderShown(const PosedScene& posed, const PosedCamera& camera, RenderOptions& options);
   void drawPicture(const ViewState& state, const Pick& pick, const PosedScene& posed, Drawn& drawn,

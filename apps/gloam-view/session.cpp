@@ -77,7 +77,7 @@ void Session::adoptChoice(const ViewerChoice& choice) {
   for (const TechniqueInfo& info : techniques()) {
     if (choice.technique.name != info.name) continue;
     wanted[kLeft] = {&info, cli::settingsFor(info, choice.technique)};
-    switch_started_s_ = now_s();
+    beginSwitch();
   }
 }
 
@@ -197,7 +197,7 @@ void Session::pick(Side side, const std::string& name) {
   wanted[side] = pickOf(technique(name));
   if (const auto given = choice_.technique.values.find(name); given != choice_.technique.values.end())
     wanted[side].settings = cli::settingsFor(*wanted[side].info, choice_.technique);
-  switch_started_s_ = now_s();
+  beginSwitch();
   prepare();
   changed();
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <optional>
 
 #include "camera_control.h"
@@ -120,6 +121,7 @@ class Session {
   void takePicks();
   void takeDrawn();
   void takeReference();
+  void beginSwitch();
   void takeProblem(const Drawn& drawn);
   void takeMissing(const Drawn& drawn);
   void advance();
@@ -137,7 +139,8 @@ class Session {
   int answered_width_ = 0, losses_ = 0;
   double last_change_s_ = -10.0, last_look_s_ = 0.0, last_pick_s_ = -10.0, last_advance_s_ = 0.0,
          switch_started_s_ = -1.0;
-  double switch_ms_ = 0.0;
+  double switch_ms_ = 0.0, switch_work_ms_ = 0.0;
+  std::clock_t switch_clock_ = 0;
   std::uint64_t response_serial_ = 0;
   int response_from_ = 0, slowest_response_ = 0;
   std::uint64_t switch_serial_ = 0;

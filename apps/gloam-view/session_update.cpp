@@ -50,6 +50,12 @@ void Session::update(int width, int height) {
   followShaders();
 }
 
+/// To the first picture of the technique that was picked.
+void Session::beginSwitch() {
+  switch_started_s_ = now_s();
+  switch_clock_ = std::clock();
+}
+
 void Session::takeDrawn() {
   std::shared_ptr<const Drawn> drawn = worker_.take();
   if (!drawn) return;
@@ -76,12 +82,14 @@ void Session::takeDrawn() {
   }
   history_.add(*drawn);
   if (state.display.auto_exposure) state.display = drawn->display;
-  if (response_serial_ != 0 && drawn->serial >= response_serial_) {
-    slowest_response_ = std::max(slowest_response_, worker_.pictures() - response_from_);
+  for (const auto& [serial, number] : drawn->answers) {
+    if (response_serial_ == 0 || serial < response_serial_) continue;
+    slowest_response_ = std::max(slowest_response_, number - response_from_);
     response_serial_ = 0;
   }
   if (switch_started_s_ >= 0.0 && drawn->technique == wanted[kLeft].info->name) {
     switch_ms_ = (now_s() - switch_started_s_) * 1000.0;
+    switch_work_ms_ = double(std::clock() - switch_clock_) * 1000.0 / CLOCKS_PER_SEC;
     switch_started_s_ = -1.0;
   }
   drawn_ = std::move(drawn);
@@ -228,6 +236,7 @@ cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
   json["pictures"] = worker_.pictures();
   json["input_to_picture"] = slowest_response_;
   json["last_switch_ms"] = switch_ms_;
+  json["last_switch_work_ms"] = switch_work_ms_;  // of all processors, the window's share with it
   json["ui_objects"] = ui_objects;
   json["resident_bytes"] = residentBytes();
   json["camera"] = {{"eye", cli::shortest(camera.eye())}, {"target", cli::shortest(camera.target())}};
