@@ -115,8 +115,14 @@ double lampPower(const frame::LightRow& lamp, const glm::vec3& low, const glm::v
 }
 
 LightSources::LightSources(std::vector<frame::LightRow> lamps, const Emitters& emitters,
-                           const EnvironmentTable& environment, const glm::vec3& low, const glm::vec3& high)
-    : lamps_(std::move(lamps)), emitters_(&emitters), environment_(&environment), low_(low), high_(high) {
+                           const EnvironmentTable& environment, const glm::vec3& low, const glm::vec3& high,
+                           Focus focus)
+    : lamps_(std::move(lamps)),
+      emitters_(&emitters),
+      environment_(&environment),
+      low_(low),
+      high_(high),
+      focus_(std::move(focus)) {
   std::vector<double> powers;
   for (const frame::LightRow& lamp : lamps_) powers.push_back(lampPower(lamp, low, high));
   const glm::vec3 side = high - low;
@@ -130,15 +136,8 @@ LightSources::LightSources(std::vector<frame::LightRow> lamps, const Emitters& e
 
 Emitted LightSources::fromLamp(const frame::LightRow& lamp, const glm::vec2& direction,
                                const glm::vec2& place) const {
+  if (lamp.kind == frame::kLightDirectional) return fromAfar(lamp.direction, lamp.intensity, place);
   Emitted ray;
-  if (lamp.kind == frame::kLightDirectional) {
-    const EntryFaces faces(low_, high_, lamp.direction);
-    ray.direction = lamp.direction;
-    ray.origin = faces.point(place);
-    ray.area = faces.area();
-    ray.flux = faces.area() * lamp.intensity;
-    return ray;
-  }
   ray.origin = lamp.position;
   ray.range = lamp.range;
   if (lamp.kind == frame::kLightPoint) {
@@ -152,6 +151,31 @@ Emitted LightSources::fromLamp(const frame::LightRow& lamp, const glm::vec2& dir
   ray.direction = sampling::frame(lamp.direction) * local;
   ray.spread = 2.0f * kPi * (1.0f - cos_outer);
   ray.flux = ray.spread * punctual::coneFactor(local.z, lamp.cos_inner, lamp.cos_outer) * lamp.intensity;
+  return ray;
+}
+
+Emitted LightSources::fromAfar(const glm::vec3& direction, const glm::vec3& irradiance,
+                               const glm::vec2& place) const {
+  const EntryFaces faces(low_, high_, direction);
+  Emitted ray;
+  ray.direction = direction;
+  ray.area = faces.area();
+  const float share = focus_.share(faces.area());
+  if (share <= 0.0f) {
+    ray.origin = faces.point(place);
+  } else {
+    const bool focused = place.x < share;
+    const glm::vec2 rest(focused ? place.x / share : (place.x - share) / (1.0f - share), place.y);
+    ray.origin = focused ? focus_.point(rest, direction) : faces.point(rest);
+    if (focused) {  // back to where no scene is
+      const float back = glm::distance(ray.origin, 0.5f * (low_ + high_)) + glm::distance(low_, high_);
+      ray.origin -= back * direction;
+    }
+    // Lines beside the box meet nothing, whatever their density.
+    const float density = share * focus_.density(ray.origin, direction) + (1.0f - share) / faces.area();
+    ray.area = 1.0f / density;
+  }
+  ray.flux = ray.area * irradiance;
   return ray;
 }
 
@@ -172,11 +196,7 @@ Emitted LightSources::emit(const glm::vec2 u[3]) const {
     ray.flux = 2.0f * kPi * sample.light;
   } else {
     const EnvironmentTable::Sample sample = environment_->sample(first);
-    const EntryFaces faces(low_, high_, -sample.direction);
-    ray.direction = -sample.direction;
-    ray.origin = faces.point(u[1]);
-    ray.area = faces.area();
-    ray.flux = faces.area() * sample.light;
+    ray = fromAfar(-sample.direction, sample.light, u[1]);
   }
   ray.flux /= source.probability;
   ray.area /= source.probability;

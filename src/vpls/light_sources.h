@@ -7,6 +7,7 @@
 #include "frame/lights.h"
 #include "visibility/host_world.h"
 #include "vpls/environment_table.h"
+#include "vpls/walk_focus.h"
 
 namespace gloam::vpls {
 
@@ -69,9 +70,10 @@ struct Emitted {
 class LightSources {
  public:
   LightSources() = default;
-  /// Keeps references to all but the lamps.
+  /// Keeps references to all but the lamps and the focus. Of what comes from far away, a share enters by the focus.
   LightSources(std::vector<frame::LightRow> lamps, const Emitters& emitters,
-               const EnvironmentTable& environment, const glm::vec3& low, const glm::vec3& high);
+               const EnvironmentTable& environment, const glm::vec3& low, const glm::vec3& high,
+               Focus focus = {});
   bool dark() const { return choice_.empty(); }
   /// Watts in the end, roughly: what choices go by.
   double emittersPower() const { return emitters_->power(); }
@@ -81,11 +83,14 @@ class LightSources {
 
  private:
   Emitted fromLamp(const frame::LightRow& lamp, const glm::vec2& direction, const glm::vec2& place) const;
+  /// Of irradiance on a plane across the direction.
+  Emitted fromAfar(const glm::vec3& direction, const glm::vec3& irradiance, const glm::vec2& place) const;
 
   std::vector<frame::LightRow> lamps_;
   const Emitters* emitters_ = nullptr;
   const EnvironmentTable* environment_ = nullptr;
   glm::vec3 low_{0.0f}, high_{0.0f};
+  Focus focus_;
   double environment_power_ = 0.0;
   Choice choice_;  // lamps, emitters, environment
 };

@@ -242,7 +242,7 @@ bool sends(const WalkVpl& row) {
 
 std::vector<WalkVpl> makeRows(const WalkPlan& plan, const WalkLights& lights) {
   const LightSources sources({lights.lamps.begin(), lights.lamps.end()}, lights.emitters, lights.environment,
-                             lights.low, lights.high);
+                             lights.low, lights.high, lights.focus);
   std::vector<WalkVpl> lamps;
   std::vector<double> powers;
   for (const frame::LightRow& lamp : lights.lamps) {

@@ -25,6 +25,7 @@ struct WalkLights {
   const Emitters& emitters;
   const EnvironmentTable& environment;
   glm::vec3 low{0.0f}, high{0.0f};  ///< box of the scene
+  Focus focus = {};                 ///< of what comes from far away
 };
 
 /// Rows of all sets, in their places; those that send nothing are of kSightNothing. On all cores; the same for any number.

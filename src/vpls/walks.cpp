@@ -42,6 +42,8 @@ struct Walker::State {
 
 namespace {
 
+constexpr float kLeastHill = 0.01f;  // of the scene's size
+
 /// Points that the camera sees.
 gpu::BufferRef recordSeen(gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
   const gpu::BufferRef seen =
@@ -53,6 +55,13 @@ gpu::BufferRef recordSeen(gpu::FrameGraph& graph, const frame::FrameInputs& inpu
       .write("seen", seen)
       .dispatchOver(int(kSeenPoints));
   return seen;
+}
+
+bool shinesFromAfar(const frame::FrameInputs& inputs) {
+  return !inputs.environment.empty() ||
+         std::ranges::any_of(inputs.shadow_maps.lights, [](const frame::LightRow& lamp) {
+           return lamp.kind == frame::kLightDirectional;
+         });
 }
 
 }  // namespace
@@ -77,23 +86,25 @@ Walks Walker::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, c
     s.environment = EnvironmentTable(inputs.environment);
     s.environment_revision = inputs.environment.revision();
   }
-  const gpu::BufferRef seen = options.candidates > 1 ? recordSeen(graph, inputs) : gpu::BufferRef();
+  const bool focuses = options.focus && plan.indirect() > 0 && shinesFromAfar(inputs);
+  const gpu::BufferRef seen =
+      options.candidates > 1 || focuses ? recordSeen(graph, inputs) : gpu::BufferRef();
   auto& pass = graph.host("vpls.walks");
   visibility::HostWorld::reads(pass, inputs.scene);
   if (seen) pass.read(seen);
   pass.write(walks.rows).write(walks.sets);
-  pass.run([&s, &world, &scene = inputs.scene, plan, candidates, walks, lamps,
-            seen](gpu::HostAccess& access) {
+  pass.run([&s, &world, &scene = inputs.scene, plan, candidates, walks, lamps, seen, focuses,
+            chooses = options.candidates > 1](gpu::HostAccess& access) {
     world.update(access, scene);
     const visibility::WorldTracer& tracer = world.tracer();  // built here, not by the threads that trace
     s.follow(world);
-    std::vector<WalkVpl> rows =
-        makeRows(candidates, {world, lamps, s.emitters, s.environment, scene.boundsMin(), scene.boundsMax()});
-    if (seen) {
-      std::vector<SightPoint> points = access.download<SightPoint>(seen);
-      std::erase_if(points, [](const SightPoint& point) { return point.normal == glm::vec3(0.0f); });
-      rows = chooseRows(candidates, rows, plan, tracer, points);
-    }
+    std::vector<SightPoint> points;
+    if (seen) points = access.download<SightPoint>(seen);
+    std::erase_if(points, [](const SightPoint& point) { return point.normal == glm::vec3(0.0f); });
+    WalkLights lights{world, lamps, s.emitters, s.environment, scene.boundsMin(), scene.boundsMax()};
+    if (focuses) lights.focus = Focus(points, kLeastHill * glm::distance(lights.low, lights.high));
+    std::vector<WalkVpl> rows = makeRows(candidates, lights);
+    if (chooses) rows = chooseRows(candidates, rows, plan, tracer, points);
     std::vector<SightSet> sets;
     for (std::size_t k = 0; k < std::size_t(plan.sets); ++k) sets.push_back(packRows(plan, k, rows));
     access.upload(walks.rows, std::span<const WalkVpl>(rows));

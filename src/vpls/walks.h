@@ -23,6 +23,8 @@ struct WalkOptions {
   /// So many times more rows for lit surfaces are made, and those kept, more or less brightened, that add most where the camera looks (RF-7). For
   /// scenes of which little is seen or lit. 1: all that are made are kept.
   int candidates = 1;
+  /// Up to half of the paths from far away come down about what the camera sees: in a wide scene most others light nothing that matters.
+  bool focus = true;
 };
 
 /// Sets of virtual lights on the device. Rows of a set: lamps, then what glows and the environment, then lit surfaces, then rows
@@ -45,7 +47,7 @@ class Walker {
   Walker();
   ~Walker();
 
-  /// Adds the host pass "vpls.walks", and "vpls.seen" before it where there are candidates. `world` is updated in it. Throws Error for counts below 0, more than 256 sets, and more
+  /// Adds the host pass "vpls.walks", and "vpls.seen" before it where there are candidates or light comes from far away. `world` is updated in it. Throws Error for counts below 0, more than 256 sets, and more
   /// rows than a buffer of the device holds.
   Walks record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const WalkOptions& options,
                visibility::HostWorld& world);

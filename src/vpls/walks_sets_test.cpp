@@ -204,5 +204,35 @@ TEST(WalkSets, CandidatesAreChosenWhereTheCameraLooks) {
   EXPECT_NEAR(blind_mean, want, 3.0f * blind / std::sqrt(float(kSets)));
 }
 
+// In a wide scene each set errs less where the camera looks, and nobody's light is lost in the mean.
+TEST(WalkSets, LightFromAfarComesDownWhereTheCameraLooks) {
+  SceneBuilder builder("field");
+  builder.place("ground", squareAt(40.0f, 0.0f), builder.diffuse("ground", glm::vec3(0.5f)));
+  builder.place("box", shapes::roundedBox({1, 1, 1}, 0.05f, 0.5f, 2),
+                builder.diffuse("white", glm::vec3(0.8f)));
+  builder.light(lampOf(Light::Type::kDirectional), {0, 5, 0}, glm::normalize(glm::vec3(-0.3f, -1, -1)));
+  const Scene scene = builder.finish();
+  constexpr int kSets = 64;
+  const auto measured = [&](bool focus, int rows, float want, float& mean) {
+    const Made made =
+        make(scene, {.sets = kSets, .direct = 0, .indirect = rows, .most_lamps = 0, .focus = focus});
+    double squares = 0.0;
+    mean = 0.0f;
+    for (std::size_t s = 0; s < kSets; ++s) {
+      const float got = irradiance(made.of(s), {0, 2, 0}, {0, -1, 0}).r;
+      mean += got / float(kSets);
+      squares += double(got - want) * double(got - want);
+    }
+    return std::sqrt(squares / kSets);
+  };
+  float want, focused_mean, plain_mean;
+  measured(false, 16384, 0.0f, want);
+  const double plain = measured(false, 64, want, plain_mean),
+               focused = measured(true, 64, want, focused_mean);
+  EXPECT_GT(want, 0.1f);
+  EXPECT_LT(focused, 0.5 * plain);
+  EXPECT_NEAR(focused_mean, want, 0.1f * want);
+}
+
 }  // namespace
 }  // namespace gloam::vpls

@@ -23,7 +23,7 @@ float exponentOf(const frame::MaterialRow& material) {
 
 }  // namespace
 
-void RadianceFilter::remarkSharpMaterials(const frame::FrameInputs& inputs) {
+void RadianceFilter::remarkSharpMaterials(const frame::FrameInputs& inputs, bool beams) {
   if (looked_at_ == inputs.scene.layoutRevision()) return;
   looked_at_ = inputs.scene.layoutRevision();
   if (inputs.scene.meshes().empty()) return;
@@ -39,8 +39,8 @@ void RadianceFilter::remarkSharpMaterials(const frame::FrameInputs& inputs) {
   if (sharpest > kSharpestLobe)
     inputs.warnings.push_back(
         fmt::format("radiance_filter: gloss of exponents up to {:.0f} is shown as that of {:.0f}; three "
-                    "bands carry no sharper",
-                    sharpest, kSharpestLobe));
+                    "bands carry no sharper{}",
+                    sharpest, kSharpestLobe, beams ? " (direct light from one or two places is)" : ""));
 }
 
 frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
@@ -53,7 +53,7 @@ frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::Fram
         "no light: no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect)");
     return nothing;
   }
-  if (plan.keepsField()) remarkSharpMaterials(inputs);
+  if (plan.keepsField()) remarkSharpMaterials(inputs, plan.beams);
   const Light light = recordGather(graph, inputs, plan, walks, visibility_);
   if (plan.views) recordViews(graph, plan, light.values, light.exposure, "radiance_filter.raw", false);
   const gpu::ImageRef filtered = recordFilter(graph, inputs, plan, light);

@@ -22,7 +22,7 @@ class RadianceFilter : public Technique {
 
  private:
   /// Says once a scene that materials are sharper than three bands show.
-  void remarkSharpMaterials(const frame::FrameInputs& inputs);
+  void remarkSharpMaterials(const frame::FrameInputs& inputs, bool beams);
 
   visibility::Visibility visibility_;
   vpls::Walker walker_;

@@ -35,6 +35,9 @@ const std::vector<Option>& options() {
        .minimum = 1,
        .maximum = 64,
        .help = "times as many are made, and those kept that add most to what the camera sees"},
+      {.name = "focus",
+       .default_value = true,
+       .help = "in a wide scene, half of the virtual lights that sky and sun make stand about what is seen"},
       {.name = "bounces",
        .default_value = 1,
        .minimum = 0,
@@ -146,6 +149,12 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
     return sets * blocks;
   };
   plan.taps = {taps(plan.sets.x, width), taps(plan.sets.y, height)};
+  if (plan.taps != settings.integer("window") * plan.sets && plan.filter != Filter::kNone)
+    warnings.push_back(fmt::format(
+        "radiance_filter.window: {} blocks of {} x {} sets are more than {} pixels or the picture; {} x {} "
+        "pixels are "
+        "filtered",
+        settings.integer("window"), plan.sets.x, plan.sets.y, kMostTaps, plan.taps.x, plan.taps.y));
   plan.beams = settings.flag("beams");
   plan.depth_threshold = settings.number("depth_threshold");
   plan.normal_threshold = settings.number("normal_threshold");
@@ -158,7 +167,8 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
                 .indirect = settings.integer("bounces") > 0 ? settings.integer("indirect") : 0,
                 .bounces = settings.integer("bounces"),
                 .most_lamps = plan.lamps_in_field ? vpls::WalkOptions{}.most_lamps : 0,
-                .candidates = settings.integer("candidates")};
+                .candidates = settings.integer("candidates"),
+                .focus = settings.flag("focus")};
   const bool direct = plan.walks.direct > 0 || plan.lamps_in_field, indirect = plan.walks.indirect > 0;
   if (direct && indirect && settings.flag("apart"))
     plan.parts = {frame::Path::kDirect, frame::Path::kIndirect};

@@ -170,6 +170,9 @@ TEST(RadianceFilter, WhatIsAskedForBadlyHasAnAnswer) {
   EXPECT_TRUE(allFinite(small));
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(3, 70), std::pair(33, 17)})
     EXPECT_TRUE(allFinite(draw(scene, {{"sets", "3"}, {"sets_down", "5"}, {"window", "4"}}, width, height)));
+  const Picture wide = draw(scene, {{"sets", "12"}, {"window", "4"}}, 60, 40);
+  EXPECT_NE(wide.warnings.back().find("24 x 24 pixels are filtered"), std::string::npos)
+      << wide.warnings.back();
 
   const Picture none = draw(scene, {{"direct", "0"}, {"indirect", "0"}}, 40, 40);
   EXPECT_EQ(none.terms, 0u);
