@@ -1,9 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// A reader of docs/formats/GLOAM_precomputed_transfer.md without gloam: irradiance of vertices under a lamp far away towards
-// (X, Y, Z), which gives 1, and radiance 0.3 from everywhere; in the axes of each mesh (for a turned node: Q^T of them).
-//   relight BAKED.glb X Y Z OUT.ply
+// relight BAKED.glb X Y Z OUT.ply: a reader of docs/formats/GLOAM_precomputed_transfer.md without gloam. Irradiance of vertices
+// under a lamp far away towards (X, Y, Z), which gives 1, and 0.3 from everywhere; in each mesh's axes (a turned node: Q^T of them).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,7 +15,6 @@
 #include <sstream>
 
 using Json = nlohmann::json;
-
 void check(bool good, const std::string& what) {
   if (!good) throw std::runtime_error(what);
 }
@@ -24,8 +22,7 @@ void check(bool good, const std::string& what) {
 struct Relight {
   Json json;
   std::string binary;
-  double lamp[3];
-  std::size_t written = 0;
+  double lamp[3] = {};
   std::ostringstream vertices;
   explicit Relight(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -45,10 +42,9 @@ struct Relight {
     const std::size_t size = type == 5121 ? 1 : type == 5123 ? 2 : 4;
     const std::size_t stride = view.value("byteStride", size * components);
     const std::size_t first = view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u);
-    check(count > 0 && (expected == 0 || count == expected), std::string(member) + " has another size");
-    check(stride < 256 && count < (1u << 31) &&
+    check(count > 0 && (expected == 0 || count == expected) && stride < 256 && count < (1u << 31) &&
               first + (count - 1) * stride + size * components <= binary.size(),
-          std::string(member) + " exceeds its buffer");
+          std::string(member) + " has another size, or exceeds its buffer");
     std::vector<float> values(count * components);
     for (std::size_t i = 0; i < values.size(); ++i) {
       std::uint32_t bits = 0;
@@ -76,22 +72,21 @@ struct Relight {
     }
     return std::sqrt(n) * p * (m < 0 ? around.imag() : around.real());
   }
-  // CRC-32 over words, the lowest byte first.
-  static void add(std::uint32_t& crc, std::uint32_t word) {
-    crc ^= word;
-    for (int bit = 0; bit < 32; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320 : 0);
-  }
-
   void light(const Json& primitive) {
     const Json& transfer = primitive.at("extensions").at("GLOAM_precomputed_transfer");
     const int version = transfer.at("version"), n = transfer.at("order");
-    check(version >= 1 && version <= 3 && !transfer.contains("texels"), "unknown transfer");
+    check(version >= 1 && version <= 3 && n >= 1 && n <= 6, "holds transfer that is not known here");
+    check(!transfer.contains("texels"), "holds transfer of texels; only that of vertices is read here");
     const auto positions = numbers(primitive.at("attributes"), "POSITION", 0, 3);
     const std::size_t points = positions.size() / 3;
-    std::uint32_t crc = ~0u;
-    for (const float v : positions) add(crc, std::bit_cast<std::uint32_t>(v));
-    for (const float corner : numbers(primitive, "indices", 0)) add(crc, std::uint32_t(corner));
-    check(std::stoul(transfer.at("geometry").get<std::string>(), nullptr, 16) == (crc ^ ~0u),
+    std::uint32_t crc = ~0u;  // CRC-32 over words, the lowest byte first
+    const auto add = [&crc](std::uint32_t word) {
+      crc ^= word;
+      for (int bit = 0; bit < 32; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320 : 0);
+    };
+    for (const float v : positions) add(std::bit_cast<std::uint32_t>(v));
+    for (const float corner : numbers(primitive, "indices", 0)) add(std::uint32_t(corner));
+    check(std::strtoul(transfer.at("geometry").get<std::string>().c_str(), nullptr, 16) == (crc ^ ~0u),
           "transfer belongs to another mesh");
     const bool half = transfer.at("format") == "half", bounces = transfer.at("bounces") > 0;
     const std::size_t nn = n * n, width = bounces ? 4 * nn : nn;
@@ -100,12 +95,12 @@ struct Relight {
     const Json& pca = packed ? transfer.at("pca") : transfer;
     const std::size_t count = pca.value("vectors", 0u), clusters = pca.value("clusters", 0u);
     std::vector<float> second, weights, cluster;
-    const auto first = packed ? numbers(pca, "means", clusters * width, 1, half)
-                              : numbers(pca, "direct", points * nn, 1, half);
-    if (packed) second = numbers(pca, "basis", clusters * count * width, 1, half);
+    const auto first =
+        numbers(pca, packed ? "means" : "direct", packed ? clusters * width : points * nn, 1, half);
+    const std::size_t further = packed ? clusters * count * width : 3 * points * nn;
+    if (packed || bounces) second = numbers(pca, packed ? "basis" : "indirect", further, 1, half);
     if (packed) weights = numbers(pca, "weights", points * count, 1, half);
     if (packed) cluster = numbers(pca, "cluster", points);
-    if (!packed && bounces) second = numbers(pca, "indirect", 3 * points * nn, 1, half);
     const auto number = [&](std::size_t p, std::size_t d) {
       if (!packed) return d < nn ? first[p * nn + d] : second[p * 3 * nn + d - nn];
       const std::size_t k = cluster[p];
@@ -125,25 +120,30 @@ struct Relight {
       for (int c = 0; c < 3; ++c) vertices << positions[3 * p + c] << ' ';
       vertices << e[0] << ' ' << e[1] << ' ' << e[2] << '\n';
     }
-    written += points;
   }
 };
 
 int main(int argc, char** argv) try {
   check(argc == 6, "expected BAKED.glb X Y Z OUT.ply");
   Relight file(argv[1]);
-  const double x = std::stod(argv[2]), y = std::stod(argv[3]), z = std::stod(argv[4]);
-  for (int i = 0; i < 3; ++i) file.lamp[i] = std::stod(argv[2 + i]) / std::hypot(x, y, z);
+  std::istringstream direction(argv[2] + std::string(" ") + argv[3] + " " + argv[4]);
+  for (double& axis : file.lamp) direction >> axis;
+  const double length = std::hypot(file.lamp[0], file.lamp[1], file.lamp[2]);
+  check(direction && direction.eof() && length > 0, "X Y Z have to be three numbers, not all of them 0");
+  for (double& axis : file.lamp) axis /= length;
   for (const Json& mesh : file.json.at("meshes"))
     for (const Json& primitive : mesh.at("primitives"))
       if (primitive.contains("/extensions/GLOAM_precomputed_transfer"_json_pointer)) file.light(primitive);
-  check(file.written > 0, "holds no transfer");
+  const std::string rows = file.vertices.str();
+  check(!rows.empty(), "holds no transfer");
   std::ofstream ply(argv[5]);
-  ply << "ply\nformat ascii 1.0\nelement vertex " << file.written << '\n';
+  ply << "ply\nformat ascii 1.0\nelement vertex " << std::ranges::count(rows, '\n') << '\n';
   for (const char* name : {"x", "y", "z", "irradiance_red", "irradiance_green", "irradiance_blue"})
     ply << "property float " << name << '\n';
-  ply << "end_header\n" << file.vertices.str();
+  check(bool(ply << "end_header\n" << rows << std::flush), std::string("cannot write ") + argv[5]);
 } catch (const std::exception& error) {
-  std::cerr << "relight: " << (argc > 1 ? argv[1] : "") << ": " << error.what() << '\n';
+  std::string what = error.what();
+  if (what.starts_with("[json")) what = "not as the format says: " + what.substr(what.find(']') + 2);
+  std::cerr << "relight: " << (argc > 1 ? argv[1] : "") << ": " << what << '\n';
   return 2;
 }

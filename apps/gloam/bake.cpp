@@ -185,7 +185,7 @@ int runBake(BakeChoice choice, Console& console) {
   const BakeEstimate estimate =
       more ? withAll(of_transfer, estimateBake(scene, choice.options), grids, clouds, choice.half_float)
            : of_transfer;
-  const std::optional<Error> fault = memoryFault(choice.options, estimate);
+  const std::optional<Error> fault = memoryFault(choice.options, estimate, of_transfer, !grids.empty());
   if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
   if (choice.estimate_only && fault) console.remark(fault->what());
   if (choice.estimate_only) return printEstimate(choice, estimate, grids, clouds, console);

@@ -61,12 +61,17 @@ void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& conso
   }
 }
 
-std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate) {
+std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate,
+                                 const BakeEstimate& of_transfer, bool has_grids) {
   const bool capped = options.memory_bytes > 0;
   const std::size_t most = capped ? options.memory_bytes : memoryOfMachine();
   if (most >= estimate.least_memory_bytes) return std::nullopt;
   const std::string least = bytesText(double(estimate.least_memory_bytes)), granted = bytesText(double(most));
-  const char* cure = estimate.texels > estimate.vertices
+  const bool by_others = most >= of_transfer.least_memory_bytes;  // transfer alone would do
+  const char* cure = by_others && has_grids
+                         ? "grids of fewer points (--grid), or round fewer objects, take less"
+                     : by_others ? "volumes of fewer voxels take less"
+                     : estimate.texels > estimate.vertices
                          ? "fewer texels (--texels) or bands (--order) take less"
                          : "fewer bands (--order), or no matrices (--glossy off), take less";
   if (!capped)

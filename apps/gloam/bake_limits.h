@@ -25,8 +25,10 @@ struct LimitChoice {
 void addLimitOptions(CLI::App& app, BakeOptions& options, LimitChoice& choice);
 /// Takes over what was chosen, and says what has no effect. Throws Error.
 void applyLimits(BakeOptions& options, const LimitChoice& choice, Console& console);
-/// What is wrong where --memory, or without it the machine's, does not suffice.
-std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate);
+/// What is wrong where --memory, or without it the machine's, does not suffice. `of_transfer`: what the bake would take without
+/// grids and volumes.
+std::optional<Error> memoryFault(const BakeOptions& options, const BakeEstimate& estimate,
+                                 const BakeEstimate& of_transfer, bool has_grids);
 
 /// "512M", "1.5 GiB", "300000000" as bytes. Throws Error.
 std::size_t parseBytes(const std::string& place, const std::string& text);

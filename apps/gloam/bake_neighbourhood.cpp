@@ -51,13 +51,14 @@ glm::ivec3 parseGrid(const std::string& text) {
 void addNeighbourhoodOptions(CLI::App& app, NeighbourhoodChoice& choice) {
   const char* group = "Neighbourhood";
   addName(
-      app, "--neighbourhood", choice.objects, "auto|NAME",
-      "round these objects (root nodes, by name, apart by commas; auto: those that move) a grid is baked, "
-      "through which they throw shadow and light on whatever passes; implies --apart")
+      app, "--neighbourhood", choice.objects, "auto|all|NAME",
+      "round these objects (root nodes, by name, apart by commas; auto: those that move, and those that they "
+      "come near) a grid is baked, through which they throw shadow and light on whatever passes; implies "
+      "--apart")
       ->group(group);
   const auto ofGrid = [&](CLI::Option* option) { choice.of_grid.push_back(option->group(group)); };
-  ofGrid(addText(app, "--grid", choice.grid, "N|XxYxZ", "points along the grid's longest side, or along each")
-             ->default_str("16"));
+  ofGrid(addText(app, "--grid", choice.grid, "N|XxYxZ", "points along each side of the grid")
+             ->default_str(std::to_string(kDefaultNeighbourhoodPoints)));
   ofGrid(addNumber(app, "--neighbourhood-reach", choice.options.reach, {0.0, 16.0}, "LENGTHS",
                    "how far the grid goes beyond its object, in lengths of the object's longest side")
              ->default_str("1"));
@@ -86,12 +87,13 @@ std::vector<int> chooseNeighbourhoods(const Scene& scene, NeighbourhoodChoice& c
   std::vector<std::string> names;
   for (const int node : objects) names.push_back(nameOf(scene, node));
   std::vector<int> chosen;
+  if (choice.objects == "all") return objects;
   if (choice.objects == "auto") {
-    for (const int node : objects)
-      if (animationMoves(scene, node)) chosen.push_back(node);
+    chosen = neighbourhoodNodesThatMeet(scene, choice.options.reach, bake.time_s);
     if (chosen.empty())
-      throw Error("--neighbourhood",
-                  fmt::format("auto: nothing moves by itself here; name an object: {}", listed(names)));
+      throw Error(
+          "--neighbourhood",
+          fmt::format("auto: nothing moves by itself here; take all, or name an object: {}", listed(names)));
     return chosen;
   }
   const auto find = [&](const std::string& name) {
@@ -159,17 +161,20 @@ Json bakeNeighbourhoods(Scene& scene, const std::vector<int>& nodes, const Neigh
     console.endProgress();
     const glm::ivec3 size = grids.back()->size;
     if (!console.json)
-      console.remark(
-          fmt::format("neighbourhood of {}: {} x {} x {} points in {}{}; interpolation errs by {:.1f} %{}",
-                      nameOf(scene, node), size.x, size.y, size.z, durationText(report.seconds),
-                      grids.back()->indirect.empty() ? ", shadow alone" : "", 100.0 * report.error,
-                      report.resumed ? "; resumed" : ""));
+      console.remark(fmt::format(
+          "neighbourhood of {}: {} x {} x {} points in {}{}; its shadow errs by {:.1f} %, close by {:.1f} % "
+          "(at worst {:.0f} %){}",
+          nameOf(scene, node), size.x, size.y, size.z, durationText(report.seconds),
+          grids.back()->indirect.empty() ? ", shadow alone" : "", 100.0 * report.error,
+          100.0 * report.near_error, 100.0 * report.worst_error, report.resumed ? "; resumed" : ""));
     list.push_back({{"object", nameOf(scene, node)},
                     {"grid", {size.x, size.y, size.z}},
                     {"inside", report.inside},
                     {"rays", report.rays},
                     {"seconds", report.seconds},
                     {"error", report.error},
+                    {"near_error", report.near_error},
+                    {"worst_error", report.worst_error},
                     {"resumed", report.resumed}});
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) scene.nodes[std::size_t(nodes[i])].neighbourhood = grids[i];

@@ -161,9 +161,9 @@ function rotationOf(matrix) {
 
 // ---- The model -------------------------------------------------------------------------------------------------------
 
-/// Baked primitives as three.js meshes whose vertex colours are radiance.
+/// Baked primitives as three.js meshes whose vertex colours are radiance. `unshown`: what the file has and they do not show.
 export function loadBaked(buffer) {
-  const glb = new Glb(buffer), json = glb.json, root = new THREE.Group(), lit = [];
+  const glb = new Glb(buffer), json = glb.json, root = new THREE.Group(), lit = [], unshown = new Set();
   const addPrimitive = (primitive, node) => {
     const extension = primitive.extensions?.GLOAM_precomputed_transfer;
     if (!extension) return;
@@ -172,6 +172,8 @@ export function loadBaked(buffer) {
       : glb.numbers(primitive.indices);
     const material = json.materials?.[primitive.material]?.pbrMetallicRoughness || {};
     const base = material.baseColorFactor || [1, 1, 1, 1], metallic = material.metallicFactor ?? 1;
+    if (metallic > 0) unshown.add(metallic > 0.5 ? 'what metals mirror (they are black)' : 'what metals mirror');
+    if (material.baseColorTexture) unshown.add('textures');
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(positions.length), 3));
@@ -194,7 +196,7 @@ export function loadBaked(buffer) {
   json.scenes[json.scene || 0].nodes.forEach((index) => addNode(index, root));
   if (lit.length === 0) throw new Error('holds no baked transfer');
   root.updateMatrixWorld(true);
-  return {root, lit};
+  return {root, lit, unshown: [...unshown]};
 }
 
 /// Fills vertex colours: reflectance / pi times irradiance. `towards` is a unit vector in the world.

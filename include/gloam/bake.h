@@ -104,7 +104,7 @@ struct BakeReport {
   std::size_t above_error = 0;    ///< points that took all directions and are not known to be that good
   std::size_t glossy_points = 0;  ///< of the points, those with matrices
   std::size_t texels = 0;         ///< of the points, those of lightmaps
-  Warnings warnings;              ///< meshes that keep vertices though texels were asked for, and why
+  Warnings warnings;              ///< meshes that keep vertices though texels were asked for; that are no manifold
   /// Relative RMS error, over these, of what prt.glossy=cheap shows: V to no more bands than the radiance has. Seen through
   /// the sharpest lobe that is shown, under light whose coefficients fall with their band as 1 / (l + 1).
   double cheap_error = 0.0;

@@ -65,7 +65,9 @@ class ExtensionReader {
 
   bool has(const char* name) const { return json_.contains(name); }
 
-  std::vector<float> numbers(const char* name, std::size_t count, bool half_float) const {
+  /// `most`: what none exceeds in magnitude; transfer is far below what halves hold.
+  std::vector<float> numbers(const char* name, std::size_t count, bool half_float,
+                             float most = kMostHalf) const {
     const int index = accessor(name);
     const AccessorView view = accessors_.view(index);
     constexpr int kUnsignedShort = 5123, kFloat = 5126;
@@ -82,6 +84,9 @@ class ExtensionReader {
       values[i] = half_float ? floatFromHalf(std::uint16_t(view.integer(i, 0))) : view.number(i, 0);
       if (!std::isfinite(values[i]))
         fail(name, fmt::format("element {} of accessors[{}] is not finite", i, index));
+      if (std::abs(values[i]) > most)
+        fail(name,
+             fmt::format("element {} of accessors[{}] is {:g}; {:g} is the most", i, index, values[i], most));
     }
     return values;
   }

@@ -21,8 +21,10 @@ using Json = nlohmann::json;
 
 NeighbourhoodTransfer someGrid(int bounces) {
   NeighbourhoodTransfer grid;
-  grid.first_point = {-1.5f, 0.25f, -2.0f};
+  grid.centre = {-1.5f, 0.25f, -2.0f};
   grid.spacing = {0.5f, 0.25f, 1.0f};
+  grid.core = {0.25f, 0.0f, 0.4f};
+  grid.growth = {0.5f, 0.125f, 0.1f};
   grid.size = {3, 4, 2};
   grid.light_order = 2;
   grid.field_order = 3;
@@ -73,8 +75,10 @@ TEST(Neighbourhood, ComesBackExactlyAsFloatsAndRoundedAsHalves) {
       ASSERT_TRUE(again.nodes[0].neighbourhood);
       const NeighbourhoodTransfer &a = *scene.nodes[0].neighbourhood, &b = *again.nodes[0].neighbourhood;
       EXPECT_EQ(a.size, b.size);
-      EXPECT_EQ(a.first_point, b.first_point);
+      EXPECT_EQ(a.centre, b.centre);
       EXPECT_EQ(a.spacing, b.spacing);
+      EXPECT_EQ(a.core, b.core);
+      EXPECT_EQ(a.growth, b.growth);
       EXPECT_EQ(a.light_order, b.light_order);
       EXPECT_EQ(a.field_order, b.field_order);
       EXPECT_EQ(b.bounces, bounces);
@@ -87,13 +91,49 @@ TEST(Neighbourhood, ComesBackExactlyAsFloatsAndRoundedAsHalves) {
   }
 }
 
+TEST(Neighbourhood, TheFirstVersionIsReadAsAnEvenGrid) {
+  writeGlb(carryingScene(0), temporary());
+  Glb glb{test::readGlbChunks(temporary())};
+  Json& extension = glb.extension();
+  for (const char* name : {"centre", "core", "growth"}) extension.erase(name);
+  extension["version"] = 1;
+  extension["firstPoint"] = {-1.5, 0.25, -2.0};
+  test::writeGlbChunks(glb, temporary());
+  const Scene scene = loadScene(temporary().string());
+  fs::remove(temporary());
+  ASSERT_TRUE(scene.nodes[0].neighbourhood);
+  const NeighbourhoodTransfer& grid = *scene.nodes[0].neighbourhood;
+  for (std::size_t p = 0; p < grid.points(); ++p) {
+    const glm::vec3 number(grid.pointAt(p));
+    const glm::vec3 at = glm::vec3(-1.5f, 0.25f, -2.0f) + number * glm::vec3(0.5f, 0.25f, 1.0f);
+    EXPECT_LT(glm::length(grid.position(p) - at), 1e-6f) << p;
+    EXPECT_LT(glm::length(grid.placeOf(at) - number), 1e-5f) << p;
+  }
+}
+
+// Three points a side of spacing 1, even to 0.5, growth 2: the last stands at 0.5 + 2 (e^(0.5 / 2) - 1) = 1.068051.
+TEST(Neighbourhood, PointsGrowApartBeyondTheCore) {
+  NeighbourhoodTransfer grid;
+  grid.size = {3, 4, 2};
+  grid.centre = {10.0f, 0.0f, -3.0f};
+  grid.core = {0.5f, 100.0f, 0.0f};
+  grid.growth = {2.0f, 1.0f, 0.5f};
+  EXPECT_NEAR(grid.position(glm::vec3(2, 0, 0)).x, 11.068051f, 1e-5f);
+  EXPECT_NEAR(grid.position(glm::vec3(0, 0, 0)).x, 8.931949f, 1e-5f);
+  EXPECT_NEAR(grid.position(glm::vec3(1, 0, 0)).x, 10.0f, 1e-6f);
+  EXPECT_NEAR(grid.position(glm::vec3(1, 3, 0)).y, 1.5f, 1e-6f);
+  EXPECT_NEAR(grid.half().z, 0.5f * (std::exp(1.0f) - 1.0f), 1e-5f);
+  for (std::size_t p = 0; p < grid.points(); ++p)
+    EXPECT_LT(glm::length(grid.placeOf(grid.position(p)) - glm::vec3(grid.pointAt(p))), 1e-4f) << p;
+}
+
 TEST(Neighbourhood, BadFilesAreAnswered) {
   const auto expectSays = [](const std::string& message, const char* what) {
     EXPECT_NE(message.find(what), std::string::npos) << message;
     EXPECT_NE(message.find("nodes[0].extensions.GLOAM_neighbourhood_transfer"), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   };
-  expectSays(messageAfter([](Glb& glb) { glb.extension()["version"] = 2; }), "2 is not known");
+  expectSays(messageAfter([](Glb& glb) { glb.extension()["version"] = 3; }), "3 is not known");
   expectSays(messageAfter([](Glb& glb) { glb.extension() = 7; }), "object");
   expectSays(messageAfter([](Glb& glb) { glb.extension().erase("visibility"); }), "visibility: missing");
   expectSays(messageAfter([](Glb& glb) { glb.extension().erase("indirect"); }), "indirect: missing");
@@ -103,6 +143,10 @@ TEST(Neighbourhood, BadFilesAreAnswered) {
   expectSays(messageAfter([](Glb& glb) { glb.extension()["size"] = {3, 4}; }), "three numbers");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["size"] = {3, 4, 1}; }), "1 is not a whole number");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["spacing"] = {1, 0, 1}; }), "spacing");
+  expectSays(messageAfter([](Glb& glb) { glb.extension()["core"] = {1, -1, 1}; }), "core");
+  expectSays(messageAfter([](Glb& glb) { glb.extension()["growth"] = {1, 1, 0}; }), "growth");
+  expectSays(messageAfter([](Glb& glb) { glb.extension()["growth"] = {1, 1e-6, 1}; }), "beyond 1e18");
+  expectSays(messageAfter([](Glb& glb) { glb.extension().erase("centre"); }), "centre: missing");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["lightOrder"] = 4; }), "lightOrder");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["format"] = "double"; }), "format");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["format"] = "half"; }), "component type 5123");

@@ -229,6 +229,19 @@ void hideNodes(GltfReading& reading) {
   }
 }
 
+// Who stands below two grids would be a part of both objects.
+void refuseNestedNeighbourhoods(const GltfReading& reading) {
+  const std::vector<Node>& nodes = reading.scene.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (int above = nodes[i].neighbourhood ? nodes[i].parent : kNone; above != kNone;
+         above = nodes[std::size_t(above)].parent) {
+      if (nodes[std::size_t(above)].neighbourhood)
+        reading.document.fail(placeOf(i) + ".extensions." + kNeighbourhoodExtension,
+                              fmt::format("node {} above it has one already", above));
+    }
+  }
+}
+
 }  // namespace
 
 void readNodes(GltfReading& reading) {
@@ -254,6 +267,7 @@ void readNodes(GltfReading& reading) {
       node.volume = readVolume(reading.accessors, *volume, placeOf(i) + ".extensions." + kVolumeExtension);
   }
   linkChildren(reading);
+  refuseNestedNeighbourhoods(reading);
   chooseRoots(reading);
   hideNodes(reading);
 }

@@ -89,7 +89,8 @@ std::shared_ptr<const Volume> readVolume(GltfAccessors& accessors, const Json& e
   volume->bounds_max = reader.vector("boundsMax", -kAny, kAny);
   volume->albedo = reader.vector("albedo", -kAny, kAny);
   volume->asymmetry = reader.number("asymmetry", -1.0f, 1.0f);
-  volume->density = reader.numbers("density", volume->voxels(), half_float);
+  volume->density =
+      reader.numbers("density", volume->voxels(), half_float, std::numeric_limits<float>::max());
   try {
     checkVolume(*volume, where);
   } catch (const Error& error) {

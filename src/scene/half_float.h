@@ -10,6 +10,8 @@
 
 namespace gloam {
 
+inline constexpr float kMostHalf = 65504.0f;
+
 /// Nearest half, ties to even; beyond 65504 in magnitude the largest half of that sign. Not-a-number stays so.
 inline std::uint16_t halfFromFloat(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);

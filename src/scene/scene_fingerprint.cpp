@@ -105,9 +105,9 @@ static void add(Fingerprint& print, const sh::ShRgb& light) {
 }
 
 static void add(Fingerprint& print, const NeighbourhoodTransfer& transfer) {
-  const auto& [first_point, spacing, size, light_order, field_order, bounces, visibility, indirect] =
+  const auto& [centre, spacing, core, growth, size, light_order, field_order, bounces, visibility, indirect] =
       transfer;
-  addAll(print, first_point, spacing, size, light_order, field_order, bounces, visibility, indirect);
+  addAll(print, centre, spacing, core, growth, size, light_order, field_order, bounces, visibility, indirect);
 }
 
 static void add(Fingerprint& print, const Volume& volume) {

@@ -16,10 +16,10 @@ class Neighbourhood(CliTest):
     def test_what_moves_throws_shadow_on_others(self):
         result = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", "auto", "-o", "a.glb")
         self.assertTrue(result["apart"])
-        self.assertEqual([grid["object"] for grid in result["neighbourhoods"]], ["vane", "ball"])
+        self.assertEqual([grid["object"] for grid in result["neighbourhoods"]], ["vane", "ball", "ground"])
         for grid in result["neighbourhoods"]:
-            self.assertEqual(max(grid["grid"]), 6)
-            self.assertTrue(0 < grid["error"] < 0.5, grid)
+            self.assertEqual(grid["grid"], [6, 6, 6])
+            self.assertTrue(0 < grid["near_error"] < grid["worst_error"] < 1 and 0 < grid["error"] < 0.5, grid)
             self.assertFalse(grid["resumed"])
         light = []
         for switch in "false", "true":
@@ -39,6 +39,11 @@ class Neighbourhood(CliTest):
         estimate = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", "vane,ball", "--estimate")
         self.assertEqual(len(estimate["neighbourhoods"]), 2)
         self.assertTrue(all(grid["memory_bytes"] > grid["file_bytes"] > 0 for grid in estimate["neighbourhoods"]))
+        for choice, objects in ("auto", ["vane", "ball", "ground"]), ("all", ["ground", "vane", "ball"]):
+            estimate = self.succeed_json("bake", SCENE, *QUICK, "--neighbourhood", choice, "--estimate")
+            self.assertEqual([grid["object"] for grid in estimate["neighbourhoods"]], objects)
+        said = self.succeed("bake", SCENE, *QUICK, "--neighbourhood", "vane", "--grid", "40", "--memory", "140M", "--estimate").err
+        self.assertIn("grids of fewer points (--grid)", said)
         self.assertIn("neighbourhood of vane: 6 x", self.succeed("bake", SCENE, *QUICK, "--neighbourhood", "vane", "--estimate").out)
         self.assertEqual(list(self.folder.glob("*.glb")), [])
 
@@ -78,7 +83,7 @@ class Neighbourhood(CliTest):
     def test_bad_input(self):
         bake = ["bake", SCENE, *QUICK, "-o", "a.glb", "--neighbourhood"]
         self.refuse(*bake, "vnae", says=["--neighbourhood", "'vnae'", "vane", "ground"])
-        self.refuse("bake", "builtin:cornell?detail=0.25", "--neighbourhood", "auto", "-o", "a.glb", says=["auto", "name an object"])
+        self.refuse("bake", "builtin:cornell?detail=0.25", "--neighbourhood", "auto", "-o", "a.glb", says=["auto", "take all, or name an object"])
         self.refuse(*bake, "", says=["--neighbourhood", "empty"])
         self.refuse(*bake, "vane,,ball", says=["--neighbourhood", "empty name between commas"])
         self.refuse(*bake, "vane", "--grid", "", says="--grid")

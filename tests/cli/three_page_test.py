@@ -90,6 +90,15 @@ class Page(CliTest):
             self.browser.screenshot(os.environ["GLOAM_KEEP_SCREENSHOT"])
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_metals_are_said_to_be_left_out(self):
+        about = "document.getElementById('about').textContent"
+        self.succeed("bake", "builtin:ring?detail=0.3", "--kind", "ds", *QUICK[:2], "--glossy", "off", "-o", "a.glb")
+        self.assertEqual(self.open("a"), "yes")
+        self.assertIn("Not shown here: what metals mirror (they are black)", self.browser.evaluate(about))
+        self.succeed("bake", "builtin:columns?detail=0.3", "--kind", "ds", *QUICK[:2], "--glossy", "off", "-o", "b.glb")
+        self.assertEqual(self.open("b"), "yes")
+        self.assertNotIn("Not shown", self.browser.evaluate(about))
+
     def test_what_it_cannot_read_is_said(self):
         self.succeed("scene", "spheres?detail=0.3", "-o", "a.glb")
         self.assertEqual(self.open("a"), "no")

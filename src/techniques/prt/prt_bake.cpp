@@ -13,6 +13,7 @@
 #include "scene/threads.h"
 #include "scene/transforms.h"
 #include "techniques/prt/prt_bake_apart.h"
+#include "techniques/prt/prt_bake_edges.h"
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_bake_meter.h"
 #include "techniques/prt/prt_bake_passes.h"
@@ -225,6 +226,7 @@ static Scene bakeOne(const Scene& scene, const BakeOptions& options, const Progr
   Scene unique = makeInstancesUnique(scene);
   const PosedScene posed = pose(unique, options.time_s);
   checkBakeable(unique, posed);
+  warnOfCrowdedEdges(unique, posed, done.warnings);
   BakePoints points = makeBakePoints(unique, posed);
   addTexels(points, unique, posed, chooseLightmaps(unique, posed, options, done.warnings));
   const DirectionTables tables = tablesFor(options);

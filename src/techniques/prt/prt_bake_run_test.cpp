@@ -11,6 +11,7 @@
 #include <set>
 
 #include "scene/checkpoint_file.h"
+#include "techniques/prt/prt_bake_edges.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
 #include "techniques/prt/prt_bake_turn.h"
 
@@ -258,6 +259,26 @@ TEST(PrtBake, EstimateKnowsHowTheFileIsWrittenAndWhatIsOpen) {
   const BakeEstimate open = estimateBake(ball, options);
   EXPECT_LT(open.memory_bytes, open.least_memory_bytes * 11 / 10) << "a ball blocks nothing of itself";
   EXPECT_EQ(open.vertices, ball.meshes[0].vertexCount());
+}
+
+TEST(PrtBake, EdgesOfMoreThanTwoTrianglesAreCounted) {
+  EXPECT_EQ(crowdedEdges(boxMesh({1, 1, 1}, false)), 0u);
+  EXPECT_EQ(crowdedEdges(gridMesh(1.0f, 4)), 0u);
+  Mesh fins;  // three sheets that meet in the edge from (0, 0, 0) to (0, 1, 0), each with vertices of its own
+  for (const glm::vec3 tip : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 1), glm::vec3(0, 0, -1)}) {
+    for (const glm::vec3 p : {glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), tip}) {
+      fins.indices.push_back(std::uint32_t(fins.positions.size()));
+      fins.positions.push_back(p);
+      fins.normals.push_back({0, 0, 1});
+    }
+  }
+  fins.name = "fins";
+  EXPECT_EQ(crowdedEdges(fins), 1u);
+  BakeReport report;
+  bakeTransfer(sceneOf(fins), shadowed(3, 256), {}, &report);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("mesh 'fins' is no manifold: 1 edges"), std::string::npos)
+      << report.warnings[0];
 }
 
 }  // namespace

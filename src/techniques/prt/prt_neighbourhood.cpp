@@ -34,28 +34,24 @@ std::vector<float> rotationBlocks(int order, const glm::mat3& matrix) {
   return blocks;
 }
 
-glm::mat4 gridFromWorld(const frame::Carrier& carrier) {
-  const NeighbourhoodTransfer& grid = *carrier.transfer;
-  glm::mat4 grid_from_node(1.0f);
-  for (int c = 0; c < 3; ++c) {
-    grid_from_node[c][c] = 1.0f / grid.spacing[c];
-    grid_from_node[3][c] = -grid.first_point[c] / grid.spacing[c];
-  }
-  return grid_from_node * glm::inverse(carrier.world_from_node);
+/// To the carrier's coordinates, from the grid's centre on.
+glm::mat4 wayFromWorld(const frame::Carrier& carrier) {
+  glm::mat4 way_from_node(1.0f);
+  way_from_node[3] = glm::vec4(-carrier.transfer->centre, 1.0f);
+  return way_from_node * glm::inverse(carrier.world_from_node);
 }
 
-/// Whether a box touches the grid, in the grid's axes.
-bool touches(const glm::mat4& grid_from_place, const glm::vec3& low, const glm::vec3& high,
-             const glm::ivec3& size) {
+/// Whether a box touches the grid.
+bool touches(const glm::mat4& way_from_place, const glm::vec3& low, const glm::vec3& high,
+             const glm::vec3& half_size) {
   glm::vec3 least(std::numeric_limits<float>::max()), most(-least);
   for (int corner = 0; corner < 8; ++corner) {
     const glm::vec3 p(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
-    const glm::vec3 at(grid_from_place * glm::vec4(p, 1.0f));
+    const glm::vec3 at(way_from_place * glm::vec4(p, 1.0f));
     least = glm::min(least, at);
     most = glm::max(most, at);
   }
-  return glm::all(glm::greaterThan(most, glm::vec3(0.0f))) &&
-         glm::all(glm::lessThan(least, glm::vec3(size - 1)));
+  return glm::all(glm::greaterThan(most, -half_size)) && glm::all(glm::lessThan(least, half_size));
 }
 
 std::uint32_t pointsOf(const frame::GpuMesh& mesh) {
@@ -119,8 +115,9 @@ void NeighbourhoodPasses::multiply(std::size_t carrier, const sh::ShRgb& light) 
 std::uint32_t NeighbourhoodPasses::addReader(std::size_t carrier, const glm::mat4& world_from_place) {
   const frame::Carrier& c = inputs_.scene.carriers().shown()[carrier];
   const std::uint32_t points = buffers_.grids()[carrier].points;
-  grids_.push_back({glm::mat4x3(gridFromWorld(c) * world_from_place), glm::uvec3(c.transfer->size),
-                    radiance_words_, std::uint32_t(carrier)});
+  const NeighbourhoodTransfer& grid = *c.transfer;
+  grids_.push_back({glm::mat4x3(wayFromWorld(c) * world_from_place), grid.spacing, grid.core, grid.growth,
+                    grid.half(), glm::uvec3(grid.size), radiance_words_, std::uint32_t(carrier)});
   turns_.push_back({points, first_words_[carrier], radiance_words_, std::uint32_t(rotations_.size())});
   const glm::mat3 place_from_carrier =
       glm::transpose(rotationFactor(world_from_place)) * rotationFactor(c.world_from_node);
@@ -149,8 +146,8 @@ void NeighbourhoodPasses::findReaders(const TransferBuffers& transfer) {
                                0};
     for (std::size_t c = 0; c < carriers.size(); ++c) {
       if (scene.carriers().ofInstances()[i] == c) continue;
-      if (!touches(gridFromWorld(carriers[c]) * world_from_object, mesh.bounds_min, mesh.bounds_max,
-                   carriers[c].transfer->size))
+      if (!touches(wayFromWorld(carriers[c]) * world_from_object, mesh.bounds_min, mesh.bounds_max,
+                   carriers[c].transfer->half()))
         continue;
       addReader(c, world_from_object);
       ++reader.grid_count;

@@ -16,9 +16,12 @@ struct GridPlace {
 };
 
 GridPlace placeInGrid(NeighbourhoodGrid grid, vec3 place, uint words) {
-  vec3 at = grid.grid_from_place * vec4(place, 1.0), last = vec3(grid.size - 1u);
-  vec3 fade = min(at, last - at) / max(vec3(1.0), kNeighbourhoodFade * last);
+  vec3 way = grid.way_from_place * vec4(place, 1.0), last = vec3(grid.size - 1u);
+  vec3 fade = (grid.half_size - abs(way)) / (kNeighbourhoodFade * grid.half_size);
   float share = clamp(min(min(fade.x, fade.y), fade.z), 0.0, 1.0);
+  vec3 beyond = max(abs(way) - grid.core, vec3(0.0));
+  vec3 q = min(abs(way), grid.core) + grid.growth * log(1.0 + beyond / grid.growth);
+  vec3 at = sign(way) * q / grid.spacing + 0.5 * last;
   uvec3 cell = uvec3(clamp(at, vec3(0.0), last - 1.0));
   uvec3 step_words = words * uvec3(1u, grid.size.x, grid.size.x * grid.size.y);
   return GridPlace(grid.first_word + cell.x * step_words.x + cell.y * step_words.y + cell.z * step_words.z, step_words,

@@ -14,6 +14,7 @@
 #include "scene/threads.h"
 #include "techniques/prt/prt_bake_kernels.h"
 #include "techniques/prt/prt_neighbourhood_field.h"
+#include "techniques/prt/prt_neighbourhood_fit.h"
 #include "techniques/prt/prt_neighbourhood_state.h"
 #include "techniques/prt/prt_neighbourhood_trace.h"
 
@@ -22,7 +23,9 @@ namespace {
 
 using namespace prt;
 
-constexpr int kMostPoints = 128;  // a side
+constexpr int kMostPoints = 128;       // a side
+constexpr float kLeastGrowth = 0.15f;  // of the longest side
+constexpr float kNear = 0.25f;         // the same: how far from the object's box errors count as near
 
 void checkRange(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
@@ -45,23 +48,20 @@ void checkOptions(const NeighbourhoodOptions& options) {
   checkRange("error_points", options.error_points, 0, 1000000);
 }
 
-/// An empty grid round the object: cells are cubes unless points along each axis are given.
+/// An empty grid round the object: even in its box, cells grow with distance beyond it. Along an axis in which the object is
+/// thin they grow from where it is thick as a part of its longest side.
 NeighbourhoodTransfer layOut(const NeighbourhoodObject& object, const NeighbourhoodOptions& options) {
   NeighbourhoodTransfer grid;
   grid.light_order = grid.field_order = options.order;
   const glm::vec3 side = object.bounds_max - object.bounds_min;
   const float longest = std::max({side.x, side.y, side.z});
-  const glm::vec3 middle = 0.5f * (object.bounds_min + object.bounds_max);
-  const glm::vec3 least(1e-3f * longest);  // of a sheet that lies in an axis' plane
-  const glm::vec3 room = glm::max(side + 2.0f * options.reach * longest, least);
-  grid.size = options.size;
-  if (options.size.y == 0) {
-    grid.spacing = glm::vec3((1.0f + 2.0f * options.reach) * longest / float(options.size.x - 1));
-    grid.size = glm::clamp(glm::ivec3(glm::ceil(room / grid.spacing - 1e-3f)) + 1, 2, kMostPoints);
-  } else {
-    grid.spacing = room / glm::vec3(grid.size - 1);
-  }
-  grid.first_point = middle - 0.5f * grid.spacing * glm::vec3(grid.size - 1);
+  grid.size = options.size.y == 0 ? glm::ivec3(options.size.x) : options.size;
+  grid.centre = 0.5f * (object.bounds_min + object.bounds_max);
+  grid.core = 0.5f * side;
+  grid.growth = glm::max(grid.core, glm::vec3(kLeastGrowth * longest));
+  const glm::vec3 beyond = glm::max(glm::vec3(options.reach * longest), 5e-4f * longest - grid.core);
+  grid.spacing =
+      2.0f * (grid.core + grid.growth * glm::log(1.0f + beyond / grid.growth)) / glm::vec3(grid.size - 1);
   return grid;
 }
 
@@ -74,7 +74,7 @@ NeighbourhoodEstimate estimateOf(const NeighbourhoodObject& object, const Neighb
   NeighbourhoodEstimate estimate;
   estimate.size = grid.size;
   estimate.points = grid.points();
-  estimate.rays = grid.points() * std::size_t(options.directions);
+  estimate.rays = grid.points() * std::size_t(options.directions + kCellSamples * sampleDirections(options));
   const std::size_t visibility = grid.points() * grid.visibilityCount() * sizeof(float);
   estimate.file_bytes = visibility + thrownBytes(grid, options);
   const GlossyLayout layout{options.order, options.order};
@@ -82,7 +82,7 @@ NeighbourhoodEstimate estimateOf(const NeighbourhoodObject& object, const Neighb
   estimate.memory_bytes =
       estimate.file_bytes + grid.points() + GlossyTables::memoryBytes(layout, tiles) +
       std::size_t(options.directions) * std::size_t(3 + layout.lightCount()) * sizeof(float) +
-      object.triangles * (130 + 1);
+      object.triangles * (130 + 1) + grid.points() * NeighbourhoodState::sampleBytes(grid);
   if (options.thrown)
     estimate.memory_bytes += object.vertices * (3 * layout.columnStride() * sizeof(float) + 12);
   return estimate;
@@ -98,13 +98,29 @@ void refuseWhatIsTooLarge(const NeighbourhoodEstimate& estimate, const Neighbour
                           most >> 20));
 }
 
-std::size_t bakePoint(const NeighbourhoodTracer& tracer, const glm::vec3& place, std::size_t point,
+/// The cell above a point, at places between which the grid is fitted.
+std::size_t sampleCell(const NeighbourhoodTracer& tracer, const glm::mat3& scale, std::size_t point,
+                       NeighbourhoodState& state) {
+  const glm::ivec3 corner = state.grid.pointAt(point);
+  if (glm::any(glm::greaterThanEqual(corner, state.grid.size - 1))) return 0;
+  for (std::size_t k = 0; k < kCellSamples; ++k) {
+    const glm::vec3 place = scale * state.grid.position(glm::vec3(corner) + cellSample(k));
+    const std::size_t at = point * kCellSamples + k;
+    const float share = tracer.roughVisibility(place, &state.samples[at * state.grid.visibilityCount()]);
+    state.sample_inside[at] = share > 0.9f && tracer.isInside(place);
+  }
+  return kCellSamples * tracer.raysOfSample();
+}
+
+std::size_t bakePoint(const NeighbourhoodTracer& tracer, const glm::mat3& scale, std::size_t point,
                       NeighbourhoodState& state) {
   NeighbourhoodTransfer& grid = state.grid;
+  const glm::vec3 place = scale * grid.position(point);
   thread_local std::vector<std::uint16_t> blocked;
   const float share = tracer.visibility(place, blocked, &grid.visibility[point * grid.visibilityCount()]);
   std::size_t rays = tracer.raysOfPoint();
   state.inside[point] = share > 0.9f && tracer.isInside(place);
+  rays += sampleCell(tracer, scale, point, state);
   if (state.inside[point] || grid.indirect.empty()) return rays;
   const GlossyLayout& layout = tracer.layout();
   std::vector<float> matrix(layout.matrixSize() + kRowPadding, 0.0f);
@@ -129,7 +145,7 @@ void bakePoints(const NeighbourhoodTracer& tracer, const NeighbourhoodObject& ob
           if (state.block_done[b].load(std::memory_order_relaxed)) continue;
           std::size_t traced = 0;
           for (std::size_t p = state.blockBegin(b); p < state.blockEnd(b); ++p)
-            traced += bakePoint(tracer, object.scale * state.grid.position(p), p, state);
+            traced += bakePoint(tracer, object.scale, p, state);
           rays += traced;
           state.block_done[b].store(1, std::memory_order_release);
           if (!meter.blockDone(traced)) stop = true;
@@ -140,70 +156,41 @@ void bakePoints(const NeighbourhoodTracer& tracer, const NeighbourhoodObject& ob
   report.rays = rays;
 }
 
-/// Points in the object take the mean of the known ones among their 26 neighbours, nearer ones counting more, ring by ring.
-void fillInside(NeighbourhoodState& state) {
-  NeighbourhoodTransfer& grid = state.grid;
-  std::vector<std::uint8_t> known(grid.points());
-  std::vector<std::size_t> waiting;
-  for (std::size_t p = 0; p < known.size(); ++p) {
-    known[p] = !state.inside[p];
-    if (!known[p]) waiting.push_back(p);
-  }
-  const glm::ivec3 size = grid.size;
-  const auto fill = [&](std::size_t p) {
-    const glm::ivec3 at(int(p % std::size_t(size.x)), int(p / std::size_t(size.x) % std::size_t(size.y)),
-                        int(p / (std::size_t(size.x) * std::size_t(size.y))));
-    std::vector<std::pair<std::size_t, float>> near;
-    float sum = 0.0f;
-    for (int n = 0; n < 27; ++n) {
-      const glm::ivec3 step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), q = at + step;
-      if (glm::any(glm::lessThan(q, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(q, size))) continue;
-      const std::size_t other =
-          std::size_t(q.x) +
-          std::size_t(size.x) * (std::size_t(q.y) + std::size_t(size.y) * std::size_t(q.z));
-      if (!known[other]) continue;
-      const glm::vec3 way = grid.spacing * glm::vec3(step);
-      near.emplace_back(other, 1.0f / std::max(1e-20f, glm::dot(way, way)));
-      sum += near.back().second;
-    }
-    const auto mix = [&](std::vector<float>& values, std::size_t row) {
-      for (std::size_t i = 0; i < row && !values.empty(); ++i) {
-        float value = 0.0f;
-        for (const auto& [other, weight] : near) value += weight / sum * values[other * row + i];
-        values[p * row + i] = value;
-      }
-    };
-    if (near.empty()) return false;
-    mix(grid.visibility, grid.visibilityCount());
-    mix(grid.indirect, 3 * grid.matrixCount());
-    return true;
-  };
-  while (!waiting.empty()) {
-    std::vector<std::size_t> filled, later;
-    for (const std::size_t p : waiting) (fill(p) ? filled : later).push_back(p);
-    if (filled.empty()) return;  // all of it is inside
-    for (const std::size_t p : filled) known[p] = 1;
-    waiting.swap(later);
-  }
+/// Squared difference and squared irradiance at one place, 0 inside the object.
+glm::dvec2 errorAt(const NeighbourhoodTracer& tracer, const NeighbourhoodObject& object,
+                   const NeighbourhoodTransfer& grid, const glm::vec3& position) {
+  std::vector<float> truth(grid.visibilityCount()), seems(truth.size());
+  std::vector<std::uint16_t> blocked;
+  const glm::vec3 place = object.scale * position;
+  if (tracer.visibility(place, blocked, truth.data()) > 0.9f && tracer.isInside(place)) return {};
+  visibilityAt(grid, position, seems);
+  return irradianceDifference(grid.field_order, truth, seems);
 }
 
-double measureError(const NeighbourhoodTracer& tracer, const NeighbourhoodObject& object,
-                    const NeighbourhoodTransfer& grid, int points) {
-  std::vector<glm::dvec2> squares(std::size_t(points), glm::dvec2(0.0));
+/// At random in the grid, and as often near the object.
+void measureError(const NeighbourhoodTracer& tracer, const NeighbourhoodObject& object,
+                  const NeighbourhoodTransfer& grid, int points, NeighbourhoodReport& report) {
+  const glm::vec3 side = object.bounds_max - object.bounds_min;
+  const glm::vec3 half = grid.half(), margin(kNear * std::max({side.x, side.y, side.z}));
+  const glm::vec3 near_half = glm::min(half, 0.5f * side + margin);
+  std::vector<glm::dvec2> squares(2 * std::size_t(points), glm::dvec2(0.0));
   tbb::parallel_for(std::size_t(0), squares.size(), [&](std::size_t s) {
-    const glm::vec3 share(sampling::radicalInverse(2, s + 1), sampling::radicalInverse(3, s + 1),
-                          sampling::radicalInverse(5, s + 1));
-    const glm::vec3 position = grid.first_point + grid.spacing * glm::vec3(grid.size - 1) * share;
-    std::vector<float> truth(grid.visibilityCount()), seems(truth.size());
-    std::vector<std::uint16_t> blocked;
-    const glm::vec3 place = object.scale * position;
-    if (tracer.visibility(place, blocked, truth.data()) > 0.9f && tracer.isInside(place)) return;
-    visibilityAt(grid, position, seems);
-    squares[s] = irradianceDifference(grid.field_order, truth, seems);
+    const glm::vec3 way(sampling::radicalInverse(2, s / 2 + 1), sampling::radicalInverse(3, s / 2 + 1),
+                        sampling::radicalInverse(5, s / 2 + 1));
+    const glm::vec3 reach = s % 2 == 0 ? half : near_half;
+    squares[s] = errorAt(tracer, object, grid, grid.centre + reach * (2.0f * way - 1.0f));
   });
-  glm::dvec2 sum(0.0);
-  for (const glm::dvec2& square : squares) sum += square;
-  return sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
+  glm::dvec2 sum[2] = {};
+  double worst = 0.0, counted = 0.0;
+  for (std::size_t s = 0; s < squares.size(); ++s) {
+    sum[s % 2] += squares[s];
+    if (s % 2 == 0 || squares[s].y == 0.0) continue;
+    worst = std::max(worst, squares[s].x);
+    counted += 1.0;
+  }
+  report.error = sum[0].y > 0.0 ? std::sqrt(sum[0].x / sum[0].y) : 0.0;
+  report.near_error = sum[1].y > 0.0 ? std::sqrt(sum[1].x / sum[1].y) : 0.0;
+  report.worst_error = sum[1].y > 0.0 ? std::sqrt(worst / (sum[1].y / counted)) : 0.0;
 }
 
 Fingerprint fingerprintOf(const Scene& scene, int node, const NeighbourhoodOptions& options) {
@@ -242,9 +229,7 @@ NeighbourhoodTransfer bakeNeighbourhood(const Scene& scene, int node, const Neig
     grid.bounces = tracer.bounces();
     grid.visibility.resize(grid.points() * grid.visibilityCount());
     if (tracer.throws()) grid.indirect.resize(grid.points() * 3 * grid.matrixCount());
-    state.inside.resize(grid.points());
-    state.blocks = (grid.points() + kNeighbourhoodBlock - 1) / kNeighbourhoodBlock;
-    state.block_done = std::make_unique<std::atomic<std::uint8_t>[]>(state.blocks);
+    state.begin();
     Fingerprint fingerprint;
     if (!options.checkpoint.empty()) {
       fingerprint = fingerprintOf(scene, node, options);
@@ -254,9 +239,11 @@ NeighbourhoodTransfer bakeNeighbourhood(const Scene& scene, int node, const Neig
     bakePoints(tracer, object, state, meter, done);
     if (options.keep_checkpoint) meter.keepAll();
     fillInside(state);
+    fitVisibility(state);
+    fitThrown(state);
     done.points = grid.points();
     done.inside = std::size_t(std::ranges::count(state.inside, std::uint8_t(1)));
-    done.error = measureError(tracer, object, grid, options.error_points);
+    measureError(tracer, object, grid, options.error_points, done);
   });
   std::error_code ignored;
   if (!options.checkpoint.empty() && !options.keep_checkpoint)

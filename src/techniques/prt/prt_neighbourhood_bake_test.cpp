@@ -15,6 +15,8 @@
 #include "math/sh_high_order.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
 #include "techniques/prt/prt_neighbourhood_field.h"
+#include "techniques/prt/prt_neighbourhood_fit.h"
+#include "techniques/prt/prt_neighbourhood_trace.h"
 
 namespace gloam::prt {
 namespace {
@@ -53,19 +55,99 @@ TEST(PrtNeighbourhood, SphereBlocksItsCone) {
   EXPECT_TRUE(grid.indirect.empty());  // nothing was baked that it could throw
   EXPECT_EQ(report.points, 343u);
   EXPECT_GT(report.inside, 0u);
+  const NeighbourhoodObject object = neighbourhoodObject(scene, 0, 0.0f);
+  const NeighbourhoodTracer tracer(scene, object, small(7), {});
+  std::vector<std::uint16_t> blocked;
+  std::vector<float> v(grid.visibilityCount());
   for (std::size_t p = 0; p < grid.points(); ++p) {
     const glm::vec3 place = grid.position(p);
     const float distance = glm::length(place);
     if (distance < 1.01f) continue;
-    const float* v = &grid.visibility[p * grid.visibilityCount()];
     const float share = blockedShare(distance);
-    EXPECT_NEAR(v[0] / std::sqrt(4.0f * kPi), 1.0f - share, 0.01f);
-    // Band 1 of a cap: sqrt(4 pi / 3) times its zonal coefficient, towards its axis; missing there.
-    const glm::vec3 axis = -place / distance;
-    const float zonal = std::sqrt(3.0f / (4.0f * kPi)) * kPi / (distance * distance);
-    const glm::vec3 band(v[3], v[1], v[2]);
-    EXPECT_LT(glm::length(band + zonal * axis), 0.02f);
+    for (const bool rough : {false, true}) {
+      EXPECT_NEAR(
+          rough ? tracer.roughVisibility(place, v.data()) : tracer.visibility(place, blocked, v.data()),
+          share, 0.01f);
+      EXPECT_NEAR(v[0] / std::sqrt(4.0f * kPi), 1.0f - share, 0.01f);
+      // Band 1 of a cap: sqrt(4 pi / 3) times its zonal coefficient, towards its axis; missing there.
+      const glm::vec3 axis = -place / distance;
+      const float zonal = std::sqrt(3.0f / (4.0f * kPi)) * kPi / (distance * distance);
+      const glm::vec3 band(v[3], v[1], v[2]);
+      EXPECT_LT(glm::length(band + zonal * axis), rough ? 0.04f : 0.02f);
+    }
   }
+}
+
+// Far out, where the field is nearly straight within a cell, what a point holds is nearly what is seen from it.
+TEST(PrtNeighbourhood, ThePointsHoldWhatIsSeenFromThem) {
+  const Scene scene = sceneOf(sphereMesh(48, 96));
+  const NeighbourhoodTransfer grid = bakeNeighbourhood(scene, 0, small(16));
+  for (std::size_t p = 0; p < grid.points(); ++p) {
+    const float distance = glm::length(grid.position(p));
+    if (distance < 2.0f) continue;
+    EXPECT_NEAR(grid.visibility[p * grid.visibilityCount()] / std::sqrt(4.0f * kPi),
+                1.0f - blockedShare(distance), 0.01f);
+  }
+}
+
+// Where V is a straight line along each axis the fit finds it, and continues it into the object, whatever it began with.
+TEST(PrtNeighbourhood, TheFitFindsWhatInterpolationCanSay) {
+  NeighbourhoodState state;
+  state.grid.light_order = state.grid.field_order = 1;
+  state.grid.size = {6, 5, 4};
+  state.grid.visibility.assign(state.grid.points(), 0.3f);
+  state.begin();
+  const auto truth = [](const glm::vec3& at) { return 1.0f + 0.2f * at.x - 0.1f * at.y * at.z; };
+  for (std::size_t p = 0; p < state.grid.points(); ++p) {
+    for (std::size_t k = 0; k < kCellSamples; ++k) {
+      const glm::vec3 at = glm::vec3(state.grid.pointAt(p)) + cellSample(k);
+      state.sample_inside[p * kCellSamples + k] = at.x < 1.5f && at.y < 2.0f;
+      state.samples[p * kCellSamples + k] = state.sample_inside[p * kCellSamples + k] ? 7.0f : truth(at);
+    }
+    state.grid.visibility[p] = truth(glm::vec3(state.grid.pointAt(p))) + 0.1f * std::sin(float(p));
+  }
+  fitVisibility(state);
+  for (std::size_t p = 0; p < state.grid.points(); ++p) {
+    const glm::vec3 at(state.grid.pointAt(p));
+    if (at.x >= 1.5f || at.y >= 2.0f)
+      EXPECT_NEAR(state.grid.visibility[p], truth(at), 0.01f) << p;
+    else
+      EXPECT_NEAR(state.grid.visibility[p], truth(at), 0.15f) << p;
+  }
+}
+
+// A parabola: interpolation between its own values errs by h^2 / 8 at the middle of every cell, always upwards. The fit errs
+// by less than half of that, RMS, and not at all in the mean.
+TEST(PrtNeighbourhood, TheFitLiesOnBothSidesOfACurve) {
+  NeighbourhoodState state;
+  state.grid.light_order = state.grid.field_order = 1;
+  state.grid.size = {9, 3, 3};
+  state.grid.visibility.resize(state.grid.points());
+  state.begin();
+  const auto truth = [](const glm::vec3& at) { return at.x * at.x; };
+  for (std::size_t p = 0; p < state.grid.points(); ++p) {
+    state.grid.visibility[p] = truth(glm::vec3(state.grid.pointAt(p)));
+    for (std::size_t k = 0; k < kCellSamples; ++k)
+      state.samples[p * kCellSamples + k] = truth(glm::vec3(state.grid.pointAt(p)) + cellSample(k));
+  }
+  const auto errors = [&] {
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < 400; ++i) {
+      const glm::vec3 at(2.0f + 4.0f * (float(i) + 0.5f) / 400.0f, 0.7f, 1.3f);
+      float value = 0.0f;
+      const GridCorners corners = cornersAt(state.grid, state.grid.position(at));
+      for (int c = 0; c < 8; ++c) value += corners.weight[c] * state.grid.visibility[corners.point[c]];
+      const double error = double(value - truth(at));
+      sum += glm::dvec2(error, error * error);
+    }
+    return glm::dvec2(sum.x / 400.0, std::sqrt(sum.y / 400.0));
+  };
+  const glm::dvec2 before = errors();
+  fitVisibility(state);
+  const glm::dvec2 after = errors();
+  EXPECT_NEAR(before.x, 1.0 / 6.0, 1e-3);
+  EXPECT_LT(std::abs(after.x), 0.01);
+  EXPECT_LT(after.y, 0.5 * before.y);
 }
 
 TEST(PrtNeighbourhood, PointsInsideHoldWhatIsOutside) {
@@ -75,7 +157,7 @@ TEST(PrtNeighbourhood, PointsInsideHoldWhatIsOutside) {
   ASSERT_GE(report.inside, 8u);
   for (std::size_t p = 0; p < grid.points(); ++p) {
     const float open = grid.visibility[p * grid.visibilityCount()] / std::sqrt(4.0f * kPi);
-    EXPECT_GT(open, 0.4f);  // at the surface half of the sphere is open
+    EXPECT_GT(open, 0.2f);  // at the surface half of the sphere is open; further in it goes on as outside
     EXPECT_LT(open, 1.0f);
   }
 }
@@ -83,7 +165,7 @@ TEST(PrtNeighbourhood, PointsInsideHoldWhatIsOutside) {
 // A white sphere under light of 1 from everywhere is 1 all over: what it blocks it gives back.
 TEST(PrtNeighbourhood, WhiteObjectInTheWhiteFurnaceThrowsWhatItBlocks) {
   const Scene scene = bakedSphere({.metallic = 0.0f, .specular = 0.0f});
-  const NeighbourhoodTransfer grid = bakeNeighbourhood(scene, 0, small());
+  const NeighbourhoodTransfer grid = bakeNeighbourhood(scene, 0, small(10));
   ASSERT_FALSE(grid.indirect.empty());
   EXPECT_EQ(grid.bounces, 1);
   sh::ShRgb white(3);
@@ -101,7 +183,7 @@ TEST(PrtNeighbourhood, WhiteObjectInTheWhiteFurnaceThrowsWhatItBlocks) {
 // body of the same albedo throws less of it.
 TEST(PrtNeighbourhood, MirrorsThrowTheLightThatTheyReflect) {
   const Scene scene = bakedSphere({.metallic = 1.0f, .roughness = 0.05f});
-  const NeighbourhoodTransfer grid = bakeNeighbourhood(scene, 0, small());
+  const NeighbourhoodTransfer grid = bakeNeighbourhood(scene, 0, small(10));
   sh::ShRgb white(3), above(3);
   white.c[0] = glm::vec3(std::sqrt(4.0f * kPi));
   const glm::vec3 place(1.8f, 0.2f, 0.1f);
@@ -125,7 +207,7 @@ TEST(PrtNeighbourhood, TurnsAndScalesWithItsNode) {
                           glm::scale(glm::mat4(1.0f), glm::vec3(2.5f));
   const NeighbourhoodTransfer after = bakeNeighbourhood(scene, 0, small(5));
   ASSERT_EQ(before.size, after.size);
-  EXPECT_LT(glm::length(before.first_point - after.first_point), 1e-4f);
+  EXPECT_LT(glm::length(before.spacing - after.spacing), 1e-4f);
   double difference = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < before.visibility.size(); ++i) {
     difference += std::pow(double(before.visibility[i] - after.visibility[i]), 2.0);
@@ -143,14 +225,16 @@ TEST(PrtNeighbourhood, FinerGridsErrLess) {
     options.error_points = 200;
     NeighbourhoodReport report;
     bakeNeighbourhood(scene, 0, options, {}, &report);
-    EXPECT_LT(report.error, 0.8 * last) << points;
-    last = report.error;
+    EXPECT_LT(report.near_error, 0.8 * last) << points;
+    EXPECT_LT(report.error, report.near_error);
+    EXPECT_LT(report.near_error, report.worst_error);
+    last = report.near_error;
   }
-  EXPECT_LT(last, 0.03);
+  EXPECT_LT(last, 0.02);
 }
 
 bool sameBits(const NeighbourhoodTransfer& a, const NeighbourhoodTransfer& b) {
-  return a.visibility == b.visibility && a.indirect == b.indirect && a.first_point == b.first_point;
+  return a.visibility == b.visibility && a.indirect == b.indirect && a.spacing == b.spacing;
 }
 
 TEST(PrtNeighbourhood, SameBitsForAnyNumberOfThreadsAndAfterInterruptions) {
@@ -213,6 +297,27 @@ TEST(PrtNeighbourhood, SaysWhatItCannotDo) {
   scene.nodes[0].meshes.clear();
   scene.nodes[0].name = "empty";
   EXPECT_NE(errorOf(scene, small()).find("node 'empty'"), std::string::npos);
+}
+
+// A vane that turns over a ground and past a ball; a stone far away.
+TEST(PrtNeighbourhood, MeetingNodesAreThoseThatMoveAndTheirNeighbours) {
+  Scene scene = sceneOf(boxMesh({3, 0.1f, 3}, false));
+  const auto add = [&](const glm::vec3& at) {
+    scene.nodes.push_back({.translation = at, .meshes = {0}});
+    scene.roots.push_back(int(scene.nodes.size()) - 1);
+  };
+  add({0, 4, 0});
+  add({100, 0, 0});
+  EXPECT_TRUE(neighbourhoodNodesThatMeet(scene, 1.0f).empty());
+  AnimationChannel channel;
+  channel.node = 1;
+  channel.path = AnimationChannel::Path::kTranslation;
+  channel.times_s = {0.0f, 1.0f};
+  channel.values = {0, 40, 0, 0, 4, 0};
+  scene.animations.push_back({.channels = {channel}});
+  EXPECT_EQ(neighbourhoodNodesThatMeet(scene, 1.0f), (std::vector<int>{1, 0}));
+  EXPECT_EQ(neighbourhoodNodesThatMeet(scene, 0.1f), (std::vector<int>{1}));
+  EXPECT_EQ(neighbourhoodNodesThatMeet(scene, 16.0f), (std::vector<int>{1, 0, 2}));
 }
 
 }  // namespace

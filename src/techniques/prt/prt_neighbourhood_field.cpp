@@ -16,15 +16,13 @@ namespace gloam::prt {
 
 GridCorners cornersAt(const NeighbourhoodTransfer& grid, const glm::vec3& position) {
   const glm::vec3 last = glm::vec3(grid.size - 1);
-  const glm::vec3 at = glm::clamp((position - grid.first_point) / grid.spacing, glm::vec3(0.0f), last);
+  const glm::vec3 at = glm::clamp(grid.placeOf(position), glm::vec3(0.0f), last);
   const glm::ivec3 cell = glm::min(glm::ivec3(at), grid.size - 2);
   const glm::vec3 f = at - glm::vec3(cell);
   GridCorners corners;
   for (int c = 0; c < 8; ++c) {
     const glm::ivec3 step(c & 1, c >> 1 & 1, c >> 2), p = cell + step;
-    corners.point[c] =
-        std::size_t(p.x) +
-        std::size_t(grid.size.x) * (std::size_t(p.y) + std::size_t(grid.size.y) * std::size_t(p.z));
+    corners.point[c] = grid.numberOf(p);
     const glm::vec3 w = glm::mix(1.0f - f, f, glm::vec3(step));
     corners.weight[c] = w.x * w.y * w.z;
   }
@@ -42,10 +40,8 @@ void visibilityAt(const NeighbourhoodTransfer& grid, const glm::vec3& position, 
 }
 
 float neighbourhoodShare(const NeighbourhoodTransfer& grid, const glm::vec3& position) {
-  const glm::vec3 last = glm::vec3(grid.size - 1);
-  const glm::vec3 at = (position - grid.first_point) / grid.spacing;
-  const glm::vec3 fade = glm::max(glm::vec3(1.0f), kNeighbourhoodFade * last);
-  const glm::vec3 in = glm::min(at, last - at) / fade;
+  const glm::vec3 half = grid.half();
+  const glm::vec3 in = (half - glm::abs(position - grid.centre)) / (kNeighbourhoodFade * half);
   const float share = glm::clamp(std::min({in.x, in.y, in.z}), 0.0f, 1.0f);
   return share * share * (3.0f - 2.0f * share);
 }

@@ -21,7 +21,7 @@ GridCorners cornersAt(const NeighbourhoodTransfer& grid, const glm::vec3& positi
 /// V at a place, interpolated: visibilityCount() numbers.
 void visibilityAt(const NeighbourhoodTransfer& grid, const glm::vec3& position, std::span<float> visibility);
 
-/// How much of the grid counts at a place: 1 inside, falling to 0 at its border (kNeighbourhoodFade of each side).
+/// How much of the grid counts at a place: 1 inside, falling to 0 at its border (kNeighbourhoodFade of the way from the centre).
 float neighbourhoodShare(const NeighbourhoodTransfer& grid, const glm::vec3& position);
 
 /// Radiance at a place in the grid under `light` (both in the carrier's axes, field_order bands): what of the distant light

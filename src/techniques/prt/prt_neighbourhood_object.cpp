@@ -52,6 +52,37 @@ std::vector<std::uint8_t> markBelow(const Scene& scene, int node) {
   return below;
 }
 
+/// By those of markBelow(): whether animation moves one of them.
+bool animationMoves(const Scene& scene, const std::vector<std::uint8_t>& below) {
+  return std::ranges::any_of(channelsInPlay(scene), [&](const AnimationChannel* channel) {
+    return channel->path != AnimationChannel::Path::kWeights && below[std::size_t(channel->node)];
+  });
+}
+
+constexpr int kInstants = 33;  // of the whole animation, at which is asked who stands near whom
+
+struct Box {
+  glm::vec3 low{std::numeric_limits<float>::max()}, high{-std::numeric_limits<float>::max()};
+  void add(const glm::vec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  void add(const Box& box, const glm::mat4& placed) {
+    for (int c = 0; c < 8 && box.low.x <= box.high.x; ++c) {
+      const glm::vec3 corner(c & 1 ? box.high.x : box.low.x, c & 2 ? box.high.y : box.low.y,
+                             c & 4 ? box.high.z : box.low.z);
+      add(glm::vec3(placed * glm::vec4(corner, 1.0f)));
+    }
+  }
+  Box widened(float lengths) const {
+    const glm::vec3 side = high - low, more(lengths * std::max({side.x, side.y, side.z}));
+    return {low - more, high + more};
+  }
+  bool touches(const Box& other) const {
+    return glm::all(glm::lessThanEqual(low, other.high)) && glm::all(glm::lessThanEqual(other.low, high));
+  }
+};
+
 }  // namespace
 
 std::vector<int> neighbourhoodNodes(const Scene& scene, float time_s) {
@@ -65,11 +96,41 @@ std::vector<int> neighbourhoodNodes(const Scene& scene, float time_s) {
   return nodes;
 }
 
-bool animationMoves(const Scene& scene, int node) {
-  const std::vector<std::uint8_t> below = markBelow(scene, node);
-  return std::ranges::any_of(channelsInPlay(scene), [&](const AnimationChannel* channel) {
-    return channel->path != AnimationChannel::Path::kWeights && below[std::size_t(channel->node)];
-  });
+std::vector<int> neighbourhoodNodesThatMeet(const Scene& scene, float reach, float time_s) {
+  const std::vector<int> nodes = neighbourhoodNodes(scene, time_s);
+  std::vector<std::vector<std::uint8_t>> below;
+  std::vector<std::uint8_t> moves, meets;
+  for (const int node : nodes) {
+    below.push_back(markBelow(scene, node));
+    moves.push_back(animationMoves(scene, below.back()));
+  }
+  meets = moves;
+  std::vector<Box> of_meshes;
+  for (const Mesh& mesh : scene.meshes) {
+    Box& box = of_meshes.emplace_back();
+    for (const glm::vec3& p : mesh.positions) box.add(p);
+  }
+  const float end = scene.duration_s();
+  for (int instant = 0; instant < kInstants; ++instant) {
+    const PosedScene posed = pose(scene, end * float(instant) / float(kInstants - 1));
+    std::vector<Box> boxes(nodes.size());
+    for (const Instance& instance : posed.instances) {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (below[i][std::size_t(instance.node)])
+          boxes[i].add(of_meshes[std::size_t(instance.mesh)], instance.world_from_object);
+      }
+    }
+    for (std::size_t m = 0; m < nodes.size(); ++m) {
+      for (std::size_t i = 0; i < nodes.size() && moves[m]; ++i)
+        meets[i] = meets[i] || boxes[i].touches(boxes[m].widened(reach));
+    }
+  }
+  std::vector<int> chosen;
+  for (const bool moving : {true, false}) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (meets[i] && bool(moves[i]) == moving) chosen.push_back(nodes[i]);
+  }
+  return chosen;
 }
 
 namespace prt {

@@ -5,17 +5,21 @@
 #include "gpu/shared_types.h"
 GLOAM_SHARED_BEGIN(prt)
 
-/// Share of a grid's side, at each end of it, over which its say fades out; never less than a cell.
-GLOAM_SHARED_CONST float kNeighbourhoodFade = 0.1f;
+/// Share of the way from a grid's centre to its border, at the end of it, over which its say fades out.
+GLOAM_SHARED_CONST float kNeighbourhoodFade = 0.2f;
 
 /// A grid of radiance, turned to the axes of who reads it.
 struct NeighbourhoodGrid {
-  mat4x3 grid_from_place;  // from the reader's coordinates to grid points, 0 to size - 1
+  mat4x3 way_from_place;  // from the reader's coordinates to the carrier's, from the grid's centre on
+  vec3 spacing;           // of the grid's points, as NeighbourhoodTransfer has them
+  vec3 core;
+  vec3 growth;
+  vec3 half_size;  // from the centre to the border
   uvec3 size;
   uint first_word;  // of its radiance
   uint carrier;     // whose grid it is
 };
-GLOAM_SHARED_SIZE(NeighbourhoodGrid, 68)
+GLOAM_SHARED_SIZE(NeighbourhoodGrid, 116)
 
 /// One grid's matrices times the light.
 struct NeighbourhoodPoints {

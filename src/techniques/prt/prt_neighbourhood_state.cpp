@@ -10,7 +10,7 @@ namespace gloam::prt {
 namespace {
 
 constexpr CheckpointKind kNeighbourhood{
-    {'g', 'l', 'o', 'a', 'm', 'n', 'b', 'h'}, 1, "a neighbourhood's bake"};
+    {'g', 'l', 'o', 'a', 'm', 'n', 'b', 'h'}, 2, "a neighbourhood's bake"};
 
 /// The rows of the blocks that are done: visit(data, bytes).
 template <class State, class Visit>
@@ -23,12 +23,22 @@ void forRows(State& state, const std::vector<std::uint8_t>& done, const Visit& v
       if (!values.empty()) visit(&values[begin * row], count * row * sizeof(values[0]));
     };
     rows(state.inside, 1);
+    rows(state.samples, kCellSamples * grid.visibilityCount());
+    rows(state.sample_inside, kCellSamples);
     rows(grid.visibility, grid.visibilityCount());
     rows(grid.indirect, 3 * grid.matrixCount());
   }
 }
 
 }  // namespace
+
+void NeighbourhoodState::begin() {
+  inside.resize(grid.points());
+  samples.resize(grid.points() * kCellSamples * grid.visibilityCount());
+  sample_inside.resize(grid.points() * kCellSamples);
+  blocks = (grid.points() + kNeighbourhoodBlock - 1) / kNeighbourhoodBlock;
+  block_done = std::make_unique<std::atomic<std::uint8_t>[]>(blocks);
+}
 
 void writeNeighbourhood(const std::filesystem::path& path, const Fingerprint& fingerprint,
                         const NeighbourhoodState& state) {

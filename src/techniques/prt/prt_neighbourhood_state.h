@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <mutex>
 
@@ -18,14 +19,32 @@ namespace gloam::prt {
 /// Points are worked on in blocks of this many; each block's result depends on nothing else.
 inline constexpr std::size_t kNeighbourhoodBlock = 8;
 
+/// Places in every cell at which visibility is traced as well: those of Gauss' rule with two along each axis, so that sums over
+/// them are integrals over the cell of what the interpolation's weights are multiplied with.
+inline constexpr std::size_t kCellSamples = 8;
+inline glm::vec3 cellSample(std::size_t sample) {
+  return 0.5f + (glm::vec3(sample & 1, sample >> 1 & 1, sample >> 2) - 0.5f) / std::sqrt(3.0f);
+}
+/// All samples of a cell together take as many directions as a point.
+inline int sampleDirections(const NeighbourhoodOptions& options) {
+  return std::max(256, options.directions / int(kCellSamples));
+}
+
 struct NeighbourhoodState {
-  NeighbourhoodTransfer grid;        ///< filled as blocks are done
-  std::vector<std::uint8_t> inside;  ///< [point]: in the object
+  NeighbourhoodTransfer grid;               ///< filled as blocks are done
+  std::vector<std::uint8_t> inside;         ///< [point]: in the object
+  std::vector<float> samples;               ///< [point, of the cell above it][sample][coefficient] of V
+  std::vector<std::uint8_t> sample_inside;  ///< [point][sample]
   std::size_t blocks = 0;
   std::unique_ptr<std::atomic<std::uint8_t>[]> block_done;
   std::size_t blockBegin(std::size_t block) const { return block * kNeighbourhoodBlock; }
   std::size_t blockEnd(std::size_t block) const {
     return std::min(grid.points(), (block + 1) * kNeighbourhoodBlock);
+  }
+  /// Makes room beside the grid's own numbers; nothing is done yet.
+  void begin();
+  static std::size_t sampleBytes(const NeighbourhoodTransfer& grid) {  // a point, with what the fit takes
+    return (kCellSamples + 3) * grid.visibilityCount() * sizeof(float) + kCellSamples;
   }
 };
 

@@ -16,6 +16,7 @@
 #include "math/sampling.h"
 #include "scene/transforms.h"
 #include "techniques/prt/prt_bake_kernels.h"
+#include "techniques/prt/prt_neighbourhood_state.h"
 #include "trace/surface.h"
 
 namespace gloam::prt {
@@ -49,14 +50,21 @@ void setDirections(trace::RayPacket& rays, const float* directions) {
 
 }  // namespace
 
+NeighbourhoodTracer::Directions NeighbourhoodTracer::directionsOf(const GlossyLayout& layout, int count,
+                                                                  int bounce_count) {
+  DirectionTables tables = makeDirectionTables(layout.light_order, count, bounce_count);
+  GlossyTables basis(layout, tables);
+  return {std::move(tables), std::move(basis)};
+}
+
 NeighbourhoodTracer::NeighbourhoodTracer(const Scene& scene, const NeighbourhoodObject& object,
                                          const NeighbourhoodOptions& options, const Progress& progress)
     : scene_(scene),
       object_(object),
       layout_{options.order, options.order},
-      tables_(makeDirectionTables(options.order, options.directions,
-                                  std::min(options.thrown_directions, options.directions))),
-      basis_(layout_, tables_),
+      all_(
+          directionsOf(layout_, options.directions, std::min(options.thrown_directions, options.directions))),
+      few_(directionsOf(layout_, sampleDirections(options), sampleDirections(options))),
       tracer_(scene, object.posed, {.reproducible = true, .rigid_only = true}, progress),
       probes_(sampling::fibonacciSphere(128)) {
   if (!options.thrown) return;
@@ -113,7 +121,17 @@ void NeighbourhoodTracer::light(std::size_t index) {
 
 float NeighbourhoodTracer::visibility(const glm::vec3& place, std::vector<std::uint16_t>& blocked,
                                       float* visibility) const {
-  const std::size_t tiles = std::size_t(tables_.tiles), count = layout_.visibilityCount();
+  return visibilityOf(all_, place, blocked, visibility);
+}
+
+float NeighbourhoodTracer::roughVisibility(const glm::vec3& place, float* visibility) const {
+  thread_local std::vector<std::uint16_t> blocked;
+  return visibilityOf(few_, place, blocked, visibility);
+}
+
+float NeighbourhoodTracer::visibilityOf(const Directions& set, const glm::vec3& place,
+                                        std::vector<std::uint16_t>& blocked, float* visibility) const {
+  const std::size_t tiles = std::size_t(set.tables.tiles), count = layout_.visibilityCount();
   blocked.assign(tiles, 0);
   trace::RayPacket rays;
   trace::LaneMask all;
@@ -121,7 +139,7 @@ float NeighbourhoodTracer::visibility(const glm::vec3& place, std::vector<std::u
   rays.setOrigin(place);
   std::size_t met = 0;
   for (std::size_t t = 0; t < tiles; ++t) {
-    setDirections(rays, tables_.tileDirections(int(t)));
+    setDirections(rays, set.tables.tileDirections(int(t)));
     std::fill_n(rays.t_far, kTileSize, std::numeric_limits<float>::infinity());
     tracer_.occluded(rays, all, true);
     std::uint32_t bits = 0;
@@ -130,8 +148,8 @@ float NeighbourhoodTracer::visibility(const glm::vec3& place, std::vector<std::u
     met += std::size_t(std::popcount(bits));
   }
   float sums[(sh::kMaxHighCoefficients + 15) / 16 * 16];
-  sumBlocked(basis_.basis.get(), basis_.tile_sums.get(), basis_.stride, blocked.data(), tiles, sums);
-  const float solid_angle = sampling::TiledDirections::solidAngle(tables_.tiles);
+  sumBlocked(set.basis.basis.get(), set.basis.tile_sums.get(), set.basis.stride, blocked.data(), tiles, sums);
+  const float solid_angle = sampling::TiledDirections::solidAngle(set.tables.tiles);
   for (std::size_t k = 0; k < count; ++k) visibility[k] = -solid_angle * sums[k];
   visibility[0] += std::sqrt(4.0f * kPi);
   return float(met) / float(tiles * kTileSize);
@@ -222,20 +240,21 @@ std::size_t NeighbourhoodTracer::thrown(const glm::vec3& place, const std::vecto
   const OuterShape shape{std::size_t(layout_.fieldCount()), std::size_t(layout_.lightCount()),
                          layout_.columnStride(), layout_.colorSize()};
   std::size_t seen = 0, rays_done = 0;
-  for (const std::int32_t tile : tables_.bounce_tile)
+  for (const std::int32_t tile : all_.tables.bounce_tile)
     seen += std::size_t(std::popcount(blocked[std::size_t(tile)]));
   if (seen == 0) return 0;
   // How much of the sphere is blocked is known better from all directions.
-  const float each = sampling::TiledDirections::solidAngle(tables_.bounce_tiles), known = 4.0f * kPi * share;
+  const float each = sampling::TiledDirections::solidAngle(all_.tables.bounce_tiles),
+              known = 4.0f * kPi * share;
   const float scale = each * std::clamp(known / (each * float(seen)), 0.5f, 2.0f);
   trace::RayPacket rays;
   trace::LaneMask mask;
   trace::HitPacket found;
   rays.setOrigin(place);
-  for (const std::int32_t tile : tables_.bounce_tile) {
+  for (const std::int32_t tile : all_.tables.bounce_tile) {
     std::uint32_t lanes = blocked[std::size_t(tile)];
     if (lanes == 0) continue;
-    setDirections(rays, tables_.tileDirections(tile));
+    setDirections(rays, all_.tables.tileDirections(tile));
     mask.set(lanes);
     tracer_.closest(rays, mask, false, found);
     rays_done += std::size_t(std::popcount(lanes));
@@ -244,7 +263,8 @@ std::size_t NeighbourhoodTracer::thrown(const glm::vec3& place, const std::vecto
       if (found.instance[k] == trace::kNoHit) continue;
       LightRow light = {};
       rays_done += follow(hitOf(found, k), place, directionOf(rays, k), light);
-      addOuter(shape, basis_.basisOf(std::size_t(tile) * kTileSize + std::size_t(k)), scale, light, matrix);
+      addOuter(shape, all_.basis.basisOf(std::size_t(tile) * kTileSize + std::size_t(k)), scale, light,
+               matrix);
     }
   }
   return rays_done;

@@ -41,13 +41,16 @@ class NeighbourhoodTracer {
   /// Visibility of all directions from a place (not blocked: 1), layout().visibilityCount() numbers. `blocked` gets a bit a
   /// direction. Returns the share of directions that meet something.
   float visibility(const glm::vec3& place, std::vector<std::uint16_t>& blocked, float* visibility) const;
+  /// The same by fewer directions (sampleDirections), for places that are many and lie close together.
+  float roughVisibility(const glm::vec3& place, float* visibility) const;
   /// Whether the place is inside the object: backs wherever it looks.
   bool isInside(const glm::vec3& place) const;
   /// [rgb][row i][column j, padded] (GlossyLayout): radiance that arrives from the object by the light's coefficients.
   /// Returns the number of rays. `blocked` as visibility() left it.
   std::size_t thrown(const glm::vec3& place, const std::vector<std::uint16_t>& blocked, float share,
                      float* matrix) const;
-  std::size_t raysOfPoint() const { return std::size_t(tables_.tiles) * kTileSize; }
+  std::size_t raysOfPoint() const { return std::size_t(all_.tables.tiles) * kTileSize; }
+  std::size_t raysOfSample() const { return std::size_t(few_.tables.tiles) * kTileSize; }
 
  private:
   /// A mesh's surface as it sends light on: rows of DI in these axes, [vertex][rgb][column].
@@ -58,6 +61,13 @@ class NeighbourhoodTracer {
     std::vector<std::int8_t> facing;
     int texel_width = 0, texel_height = 0, uv_set = 0;
   };
+  struct Directions {
+    DirectionTables tables;
+    GlossyTables basis;
+  };
+  static Directions directionsOf(const GlossyLayout& layout, int count, int bounce_count);
+  float visibilityOf(const Directions& set, const glm::vec3& place, std::vector<std::uint16_t>& blocked,
+                     float* visibility) const;
   void light(std::size_t instance);
   void addDiffuse(const trace::Hit& hit, const Lit& lit, const glm::vec3& weight, LightRow& light) const;
   std::size_t follow(trace::Hit hit, glm::vec3 origin, glm::vec3 direction, LightRow& light) const;
@@ -66,8 +76,7 @@ class NeighbourhoodTracer {
   const Scene& scene_;
   const NeighbourhoodObject& object_;
   GlossyLayout layout_;
-  DirectionTables tables_;
-  GlossyTables basis_;
+  Directions all_, few_;
   trace::Tracer tracer_;
   std::vector<Lit> lit_;  ///< [instance]; empty where nothing is thrown
   std::vector<glm::vec3> probes_;
