@@ -141,6 +141,14 @@ Coverage coverageOf(const Contender& contender) {
   return coverageWith(*contender.technique, contender.settings);
 }
 
+int bouncesOf(const Contender& contender, int baked) {
+  if (contender.technique->needs_bake) return baked;
+  const bool own = std::ranges::any_of(contender.technique->options, [](const Option& option) {
+    return option.name == std::string("bounces");
+  });
+  return own ? contender.settings.integer("bounces") : 1;
+}
+
 bool anyDirect(const Coverage& coverage) {
   return std::ranges::any_of(kCoverageMembers,
                              [&](const CoverageMember& m) { return m.direct && coverage.*m.member; });

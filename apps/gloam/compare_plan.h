@@ -40,6 +40,8 @@ std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneS
 
 /// The light that it computes with its options.
 Coverage coverageOf(const Contender& contender);
+/// Bounces of its light: of the bake where it needs one, of its own option "bounces" where it has that, else one.
+int bouncesOf(const Contender& contender, int baked);
 bool anyDirect(const Coverage& coverage);
 bool anyIndirect(const Coverage& coverage);
 

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "surface_mask.h"
+
 namespace gloam::cli {
 namespace {
 
@@ -16,6 +18,7 @@ namespace fs = std::filesystem;
 
 /// What a reference that was made here is known by: the path tracer's own attributes say what is in it, not of which scene.
 constexpr const char* kInputs = "gloam.compare.inputs";
+const std::vector<std::string> kRgb = {"R", "G", "B"};
 
 std::string textOf(const LayeredImage& image, const char* name) {
   const auto found = image.attributes.find(name);
@@ -200,8 +203,8 @@ ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOpti
   return picture;
 }
 
-LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part) {
-  const LayeredImage all = imageOf(reference.layers, part, reference.file.string());
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces) {
+  const LayeredImage all = imageOf(reference.layers, part, reference.file.string(), bounces);
   LayeredImage light;
   light.width = all.width, light.height = all.height;
   light.attributes = all.attributes;
@@ -212,22 +215,29 @@ LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& par
     light.layers.push_back(*layer);
     light.layers.back().type = ChannelType::kHalf;
   }
-  const Layer* objects = reference.layers.find("object");
+  const Layer *objects = reference.layers.find("object"), *seen = reference.layers.find("seen");
   if (reference.background && objects != nullptr) light.layers.push_back(*objects);
+  // With a sky behind the scene, edges that it shows through have something in that layer too.
+  const bool shines =
+      !reference.background || textOf(reference.layers, "gloam.sources").find("emitter") != std::string::npos;
+  if (shines && seen != nullptr &&
+      std::ranges::any_of(seen->pixels, [](float value) { return value > 0.0f; }))
+    light.layers.push_back(*seen);
   return light;
 }
 
-std::optional<double> relativeNoise(const ReferencePicture& reference) {
-  const Image light = reference.layers.image("", {"R", "G", "B"}, reference.file.string());
-  double sum = 0.0, squares = 0.0;
-  for (const float value : light.pixels) sum += double(value), squares += double(value) * double(value);
-  if (!reference.noise || !std::isfinite(*reference.noise) || squares <= 0.0) return std::nullopt;
-  return *reference.noise * sum / std::sqrt(squares * double(light.pixels.size()));
+bool tellsBounces(const ReferencePicture& reference, const Coverage& part, int bounces) {
+  try {
+    imageOf(reference.layers, part, reference.file.string(), bounces);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
-std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part,
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part, int bounces,
                                     const Image& light, const Image& mask) {
-  const std::optional<double> variance = varianceOf(reference.layers, part, reference.file.string());
+  const std::optional<double> variance = varianceOf(reference.layers, part, reference.file.string(), bounces);
   double squares = 0.0;
   for (std::size_t pixel = 0; pixel < mask.pixels.size(); ++pixel) {
     if (mask.pixels[pixel] <= 0.0f) continue;
@@ -241,23 +251,15 @@ std::optional<double> relativeNoise(const ReferencePicture& reference, const Cov
   return std::sqrt(*variance * 3.0 * double(mask.pixels.size()) / squares);
 }
 
-std::string tracerVersion() {
-  return versionText(GLOAM_VERSION, std::to_string(kReferenceRevision));
+std::optional<double> relativeNoise(const ReferencePicture& reference) {
+  const std::string place = reference.file.string();
+  const Coverage all = coverageOf(reference.layers, place);
+  const LayeredImage light = lightForPart(reference, all, -1);
+  return relativeNoise(reference, all, -1, light.image("", kRgb, place), surfaceMask(light, place));
 }
 
-Image surfaceMask(const ReferencePicture& reference) {
-  const Image alpha = reference.layers.image("", {"A"}, reference.file.string());
-  const Layer* objects = reference.layers.find("object");
-  const bool by_object = reference.background && objects != nullptr && !objects->ids.empty();
-  Image mask(alpha.width, alpha.height, 1);
-  bool any = false;
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    const bool seen = by_object ? objects->ids[i] != 0 : alpha.pixels[i] > 0.0f;
-    mask.pixels[i] = seen ? 1.0f : 0.0f;
-    any |= seen;
-  }
-  if (!any) throw Error(reference.file.string(), "shows no surface: nothing to compare");
-  return mask;
+std::string tracerVersion() {
+  return versionText(GLOAM_VERSION, std::to_string(kReferenceRevision));
 }
 
 }  // namespace gloam::cli

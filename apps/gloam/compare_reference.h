@@ -45,22 +45,21 @@ ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOpti
                                 float noise, const std::filesystem::path& file, const Progress& progress,
                                 Console& console);
 
-/// Light alone (R G B A, direct, indirect), as halves, for one technique: `part` of what the reference holds. Alpha, or
-/// objects where the background is drawn, tell where a surface is seen.
-LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part);
+/// Light alone (R G B A, direct, indirect), as halves, for one technique: `part` of what the reference holds, of paths with so many
+/// bounces. Alpha, or objects where the background is drawn, and "seen", where something shines, tell which pixels are measured
+/// (surfaceMask).
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces);
+/// False where the file has that part only with the light of further bounces in one sum.
+bool tellsBounces(const ReferencePicture& reference, const Coverage& part, int bounces);
 
-/// The relative error ||a - b|| / ||b|| that noise alone is expected to make of all light: PathTracer::noise() is relative
-/// to the mean, this to the root mean square. Nothing where the file does not tell.
-std::optional<double> relativeNoise(const ReferencePicture& reference);
-/// The same of a part of the light, over pixels of `mask` of that part's own picture `light`. Nothing where the file does not
-/// tell: `gloam reference --parts` of this gloam does.
-std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part,
+/// The relative error ||a - b|| / ||b|| that noise alone is expected to make of a part of the light, over pixels of `mask` of that
+/// part's own picture `light`. Nothing where the file does not tell: `gloam reference --parts` of this gloam does.
+std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part, int bounces,
                                     const Image& light, const Image& mask);
+/// The same of all light that the reference holds.
+std::optional<double> relativeNoise(const ReferencePicture& reference);
 
 /// "gloam 1.2.3, tracer 4": as ReferencePicture::version has it.
 std::string tracerVersion();
-
-/// One channel: 1 where a surface is seen, as `gloam diff --foreground` finds it. Throws Error where none is.
-Image surfaceMask(const ReferencePicture& reference);
 
 }  // namespace gloam::cli

@@ -3,6 +3,7 @@
 #include "compare_results.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ Json techniqueJson(const TechniqueResult& result) {
   json["frame_ms"] = result.frame_ms;
   json["covers"] = coverageNames(result.covers);
   json["leaves_out"] = coverageNames(result.missing);
+  json["bounces"] = result.bounces;
   json["reference_noise"] = orNull(result.reference_noise);
   json["bake_note"] = result.bake_note;
   json["notes"] = result.notes;
@@ -149,6 +151,17 @@ std::vector<std::string> noteLines(const CompareResults& results) {
     }
   }
   return lines;
+}
+
+std::string bouncesRemark(const CompareResults& results) {
+  std::vector<std::string> said;
+  for (const TechniqueResult& result : results.techniques) {
+    if (result.bounces < results.bounces)
+      said.push_back(fmt::format("{} to {}", result.label, result.bounces));
+  }
+  if (said.empty()) return "";
+  return fmt::format("of {} bounces traced, each is held to its own: {}", results.bounces,
+                     fmt::join(said, ", "));
 }
 
 std::string noiseRemark(const CompareResults& results) {

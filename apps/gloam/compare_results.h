@@ -29,6 +29,7 @@ struct TechniqueResult {
   std::optional<double> bake_seconds;
   std::string bake_note;     ///< where the time of a bake is not known: why
   Coverage covers, missing;  ///< of the light that the scene has
+  int bounces = 0;           ///< of the light that it is held to
   /// The relative error that chance in what it is held to makes by itself; nothing where that is not known.
   std::optional<double> reference_noise;
   Warnings notes;
@@ -52,6 +53,8 @@ Json resultsJson(const CompareResults& results);
 std::string resultsCsv(const CompareResults& results);
 /// What the reference's noise leaves open about the results, in one line; empty where it is well below all errors.
 std::string noiseRemark(const CompareResults& results);
+/// Who is held to fewer bounces than were traced, in one line; empty where nobody is.
+std::string bouncesRemark(const CompareResults& results);
 /// What techniques said of their pictures, a line each; what a technique said several times, once.
 std::vector<std::string> noteLines(const CompareResults& results);
 /// A table for people.

@@ -11,14 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare_folder.h"
 #include "compare_given.h"
-#include "compare_page.h"
-#include "compare_reference.h"
-#include "compare_results.h"
-#include "compare_stage.h"
-#include "emission_run.h"
-#include "spheres_run.h"
+#include "compare_measure.h"
 #include "verb.h"
 
 namespace gloam::cli {
@@ -26,49 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kRgb = {"R", "G", "B"};
-
-/// A stretch of the whole work.
-Progress stretch(const Progress& whole, double from, double to) {
-  Progress part{{}, whole.should_stop};
-  if (whole.update) {
-    part.update = [whole, from, to](double fraction, const std::string& what) {
-      whole.update(from + (to - from) * fraction, what);
-    };
-  }
-  return part;
-}
-
-/// Measures of one layer of a pair of files, and the FLIP map for the page.
-LayerError measureLayer(const LayeredImage& a, const LayeredImage& reference, const std::string& layer,
-                        const Image& mask, const Progress& progress, PagePicture& picture) {
-  const Image ours = a.image(layer, kRgb, "picture"), truth = reference.image(layer, kRgb, "reference");
-  const std::string name = layer.empty() ? "sum" : layer;
-  MetricOptions options;
-  options.mask = mask;
-  // As `gloam diff` takes numbers from its command line: its answers are to be the same to the last digit.
-  options.pixels_per_degree = double(float(options.pixels_per_degree));
-  const Metrics metrics = measure(ours, truth, options, stretch(progress, 0.0, 0.6));
-  picture.flip[name] = flipMap(ours, truth, options.pixels_per_degree, stretch(progress, 0.6, 1.0));
-  return metrics;
-}
-
-struct Comparison {
-  CompareChoice choice;
-  std::vector<Contender> contenders;
-  CompareStage stage;
-  CompareFolder folder;
-  ReferencePicture reference;
-  CompareResults results;
-  Page page;
-  std::vector<std::optional<SceneSpheres>> spheres;    ///< of contenders that need them
-  std::vector<std::optional<SceneEmission>> emission;  ///< what these send, likewise
-  std::vector<BakeTime> sphere_times;                  ///< what fitting and sampling those took
-  std::vector<std::string> dark_emitters;  ///< that have no spheres: what lives by these lacks their light
-};
-
+/// Settings that change no light share one.
 fs::path referenceFileOf(const Comparison& work, const Contender& contender) {
-  const bool as_usual = coverageOf(contender) == contender.technique->covers;
+  const Contender usual{contender.technique, Settings(contender.technique->options)};
+  const bool as_usual =
+      coverageOf(contender) == coverageOf(usual) && bouncesOf(contender, 0) == bouncesOf(usual, 0);
   return work.folder.file(
       fmt::format("reference_{}.exr", as_usual ? contender.technique->name : contender.stem));
 }
@@ -125,71 +81,6 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
     work.results.device = drawn.device;
     work.results.techniques.push_back(std::move(result));
   }
-}
-
-PagePicture lightPicture(const LayeredImage& light, const std::string& label) {
-  PagePicture picture;
-  picture.label = label;
-  picture.direct = light.image("direct", kRgb, label);
-  picture.indirect = light.image("indirect", kRgb, label);
-  return picture;
-}
-
-void measureAll(Comparison& work, const Image& mask, const Progress& progress) {
-  work.results.reference_relative_noise = relativeNoise(work.reference);
-  const double count = double(work.contenders.size());
-  for (std::size_t i = 0; i < work.contenders.size(); ++i) {
-    if (progress.stopRequested()) {
-      throw Interrupted(fmt::format("interrupted; the pictures are in {}", work.folder.path().string()));
-    }
-    TechniqueResult& result = work.results.techniques[i];
-    writeExr(lightForPart(work.reference, result.covers), result.reference_file);
-    const LayeredImage ours = readExr(result.file), truth = readExr(result.reference_file);
-    PagePicture picture = lightPicture(ours, result.label);
-    picture.technique = int(i);
-    const auto measured = [&](const char* layer, double from, double to) {
-      return measureLayer(ours, truth, layer, mask,
-                          stretch(progress, (double(i) + from) / count, (double(i) + to) / count), picture);
-    };
-    result.sum = measured("", 0.0, 0.34);
-    result.reference_noise =
-        relativeNoise(work.reference, result.covers, truth.image("", kRgb, "reference"), mask);
-    // All that the reference holds: what it says of itself is enough.
-    if (!result.reference_noise && result.missing == Coverage{})
-      result.reference_noise = work.results.reference_relative_noise;
-    if (anyDirect(result.covers)) result.direct = measured("direct", 0.34, 0.67);
-    if (anyIndirect(result.covers)) result.indirect = measured("indirect", 0.67, 1.0);
-    result.command = fmt::format("gloam diff {} {} --foreground", shellWord(result.file.string()),
-                                 shellWord(result.reference_file.string()));
-    work.page.pictures.push_back(std::move(picture));
-  }
-}
-
-/// One picture for each part of the light that a technique is held to, and one of all light where none is.
-void addReferencePictures(Comparison& work) {
-  std::vector<PagePicture>& pictures = work.page.pictures;
-  std::vector<TechniqueResult>& techniques = work.results.techniques;
-  std::vector<std::pair<Coverage, std::size_t>> known;
-  for (std::size_t i = 0; i < techniques.size(); ++i) {
-    const Coverage& part = techniques[i].covers;
-    auto found = std::ranges::find(known, part, &std::pair<Coverage, std::size_t>::first);
-    if (found == known.end()) {
-      found = known.insert(known.end(), {part, pictures.size()});
-      pictures.push_back(lightPicture(readExr(techniques[i].reference_file), techniques[i].name));
-    } else if (pictures[found->second].label.find(techniques[i].name) == std::string::npos) {
-      pictures[found->second].label += ", " + techniques[i].name;
-    }
-    pictures[i].reference = int(found->second);
-  }
-  const Coverage all =
-      both(work.stage.in_scene, coverageOf(work.reference.layers, work.reference.file.string()));
-  const bool all_is_there =
-      std::ranges::find(known, all, &std::pair<Coverage, std::size_t>::first) != known.end();
-  for (const auto& [part, index] : known) {
-    std::string& label = pictures[index].label;
-    label = known.size() == 1 && all_is_there ? "Reference" : "Reference for " + label;
-  }
-  if (!all_is_there) pictures.push_back(lightPicture(work.reference.layers, "Reference, all light"));
 }
 
 void writeAll(Comparison& work) {
@@ -267,7 +158,7 @@ Comparison compareAll(CompareChoice choice, Console& console) {
   const double drawn = traces ? 0.15 : 0.5, traced = traces ? 0.8 : 0.5;
   drawAll(work, stretch(whole, 0.0, drawn), console);
   haveReference(work, stretch(whole, drawn, traced), console);
-  measureAll(work, surfaceMask(work.reference), stretch(whole, traced, 0.97));
+  measureAll(work, stretch(whole, traced, 0.97));
   whole.report(0.97, "page");
   writeAll(work);
   console.endProgress();
@@ -289,6 +180,7 @@ int runCompare(CompareChoice choice, Console& console) {
     console.remark(fmt::format("wrote {}", work.folder.file("index.html").string()));
   }
   for (const std::string& line : noteLines(work.results)) console.remark(line);
+  if (const std::string remark = bouncesRemark(work.results); !remark.empty()) console.remark(remark);
   if (const std::string remark = noiseRemark(work.results); !remark.empty()) console.remark(remark);
   const double noise = work.results.reference_noise.value_or(0.0), asked = double(work.choice.noise);
   if (asked == 0.0 || noise <= asked) return kDone;

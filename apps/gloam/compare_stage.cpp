@@ -60,15 +60,11 @@ void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
   if (!anyNeedsBake(contenders)) return;
   if (carriesTransfer(stage.scene)) {
     stage.bake_note = "the file was baked beforehand";
-    const int baked = bakedBounces(stage.scene);
-    if (baked != stage.bounces) {
-      console.remark(
-          fmt::format("{} was baked with {} bounces, the reference has {}: their indirect light differs",
-                      choice.scene.name, baked, stage.bounces));
-    }
+    stage.baked_bounces = bakedBounces(stage.scene);
     return;
   }
-  const BakeOptions options = drawingBake(stage.scene, choice.view.time_s, std::min(stage.bounces, 64));
+  stage.baked_bounces = std::min(stage.bounces, 64);
+  const BakeOptions options = drawingBake(stage.scene, choice.view.time_s, stage.baked_bounces);
   BakeTime time;
   stage.baked = bakeForDrawing(stage.scene, choice.scene.name, options, choice.use_cache, console, &time);
   stage.bake_seconds = time.seconds;

@@ -21,7 +21,8 @@ struct CompareStage {
   Environment environment;
   PosedScene posed;
   PosedCamera camera;
-  int bounces = 1;    ///< of the reference
+  int bounces = 1;  ///< of the reference
+  int baked_bounces = 0;
   Coverage in_scene;  ///< the light that there is, at so many bounces
   const Scene& sceneFor(const Contender& contender) const {
     return contender.technique->needs_bake && baked ? *baked : scene;
@@ -33,7 +34,7 @@ struct CompareStage {
 /// nothing.
 CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Contender>& contenders,
                                  std::optional<int> reference_bounces, Console& console);
-/// Bakes where a contender needs it.
+/// Bakes where a contender needs it; finds baked_bounces.
 void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
                       const std::vector<Contender>& contenders, Console& console);
 

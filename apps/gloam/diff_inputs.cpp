@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "arguments.h"
+#include "surface_mask.h"
 
 namespace gloam::cli {
 namespace {
@@ -105,19 +106,9 @@ Image fileMask(const std::string& path) {
   return mask;
 }
 
-/// Where the file says that there is a surface: by its layer of objects, or by alpha.
+/// Where the file says that there is a surface: an .exr by its layers, others by alpha.
 Image foregroundOf(const std::string& path) {
-  if (kindOf(path) == Kind::kExr) {
-    const LayeredImage image = readExr(path);
-    const Layer* objects = image.find("object");
-    if (objects != nullptr && !objects->ids.empty()) {
-      const Image ids = image.image("object", {objects->channels.front()}, path);
-      Image mask(ids.width, ids.height, 1);
-      std::ranges::transform(ids.pixels, mask.pixels.begin(),
-                             [](float id) { return id != 0.0f ? 1.0f : 0.0f; });
-      return mask;
-    }
-  }
+  if (kindOf(path) == Kind::kExr) return surfaceMask(readExr(path), path);
   const Image image = readImage(path);
   if (image.channels != 2 && image.channels != 4) {
     throw Error(path, "--foreground: neither a layer object.id nor alpha tells where there is a surface");

@@ -16,7 +16,7 @@
 namespace gloam {
 
 /// Raised when the same options give other samples: pictures of another revision, and its checkpoints, are told apart.
-inline constexpr int kReferenceRevision = 2;
+inline constexpr int kReferenceRevision = 3;
 
 struct ReferenceOptions {
   int width = 512, height = 512;  ///< 1 to 16384
@@ -56,10 +56,11 @@ class PathTracer {
   /// of work) and throws Interrupted. What is done counts, also where a tile is ahead of others by a few samples; the next
   /// call brings the others up to it first.
   void refine(int samples, const Progress& progress = {});
-  int samples() const;  ///< a pixel, so far; the least where a stop has left some pixels behind
-  /// Root mean square of the pixels' standard errors over the mean of the picture's light (R, G, B together): the relative
-  /// RMSE that is to be expected of noise alone. Infinite below two samples of each position in a pixel, 0 for a black
-  /// picture.
+  int samples() const;      ///< a pixel, so far; the least where a stop has left some pixels behind
+  int mostSamples() const;  ///< of the pixels that are ahead then
+  /// Root mean square of the pixels' standard errors over the mean of what surfaces reflect (R, G, B together): the relative
+  /// RMSE that is to be expected of noise alone. Lamps and sky that are seen themselves would make it look small and do not
+  /// count. Infinite below two samples of each position in a pixel, 0 where nothing is reflected.
   double noise() const;
   const ReferenceReport& report() const;
 
@@ -68,8 +69,8 @@ class PathTracer {
   LayeredImage image() const;
   /// The same picture of a part of the light: any subset of ReferenceOptions::light. Its variance is left out.
   LayeredImage image(const Coverage& part) const;
-  /// Adds to image() one layer a source and path that has light: "environment_direct", … "emitter_indirect", and "seen"
-  /// (emission and background): what `imageOf` needs.
+  /// Adds to image() one layer a source and path that has light: "environment_direct", … "emitter_indirect" (of one bounce;
+  /// "…_2" and "…_3": of two and three, "…_4": of four and more), and "seen" (emission and background): what `imageOf` needs.
   LayeredImage imageWithParts() const;
 
   /// Writes and reads all that refine() has summed up. Reading throws Error where the file is of another scene, camera or
@@ -99,11 +100,14 @@ LayeredImage renderReference(const Scene& scene, const PosedScene& posed, const 
 Coverage coverageOf(const LayeredImage& reference, const std::string& place);
 /// That light alone out of a reference file: layers "" (R G B A), "direct", "indirect" and the geometric ones. Throws
 /// Error(place, …) that names what is missing: a file without parts can only give all that it holds.
-LayeredImage imageOf(const LayeredImage& reference, const Coverage& part, const std::string& place);
+/// `bounces`: of paths with so many at most; below 0: of all. More than three cannot be told apart from all.
+LayeredImage imageOf(const LayeredImage& reference, const Coverage& part, const std::string& place,
+                     int bounces = -1);
 /// What chance leaves in that light: the mean square of its error, R, G, B alike, over all pixels; an upper estimate, as
-/// PathTracer::noise() is. Nothing where the file does not tell (without parts, or below two samples of each position).
+/// PathTracer::noise() is. Nothing where the file does not tell (a file without parts, of less than all that it holds; or
+/// below two samples of each position).
 /// Throws Error where what it tells is damaged.
 std::optional<double> varianceOf(const LayeredImage& reference, const Coverage& part,
-                                 const std::string& place);
+                                 const std::string& place, int bounces = -1);
 
 }  // namespace gloam

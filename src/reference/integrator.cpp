@@ -170,7 +170,8 @@ PathLight Integrator::trace(const CameraPoint& point, int x, int y, std::uint32_
 
 bool Integrator::has(LightPath path) const {
   const Sources direct = impl_->paths.direct(), indirect = impl_->paths.indirect();
-  switch (path) {
+  if (bouncesOf(path) > impl_->paths.bounces()) return false;
+  switch (memberOf(path)) {
     case kEnvironmentDirect:
       return direct.environment;
     case kEnvironmentIndirect:

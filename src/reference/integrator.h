@@ -16,8 +16,10 @@
 
 namespace gloam::reference {
 
-/// Where light of a sample comes from, and by which path: Coverage's members in their order, then what is seen without
-/// any surface between (emission, background).
+/// Indirect light is told apart by its bounces; that of so many and more is one sum.
+inline constexpr int kBouncesApart = 4;
+/// Where light of a sample comes from, and by which path: Coverage's members in their order, indirect light of one bounce; what is
+/// seen without any surface between (emission, background); then, source by source, light of two bounces, three, four and more.
 enum LightPath : int {
   kEnvironmentDirect,
   kEnvironmentIndirect,
@@ -26,8 +28,24 @@ enum LightPath : int {
   kEmitterDirect,
   kEmitterIndirect,
   kSeen,
-  kLightPathCount,
+  kFurther,
+  kLightPathCount = kFurther + 3 * (kBouncesApart - 1),
 };
+/// Of a source, named by its direct path.
+constexpr LightPath pathAfter(LightPath direct, int bounces) {
+  if (bounces < 2) return LightPath(direct + bounces);
+  const int apart = bounces < kBouncesApart ? bounces : kBouncesApart;
+  return LightPath(kFurther + (kBouncesApart - 1) * (direct / 2) + apart - 2);
+}
+/// Bounces of its light; kBouncesApart: and more.
+constexpr int bouncesOf(LightPath path) {
+  if (path < kFurther) return path == kSeen ? 0 : path % 2;
+  return (path - kFurther) % (kBouncesApart - 1) + 2;
+}
+/// The path of Coverage's member that it belongs to; kSeen itself.
+constexpr LightPath memberOf(LightPath path) {
+  return path < kFurther ? path : LightPath(2 * ((path - kFurther) / (kBouncesApart - 1)) + 1);
+}
 using PathLight = std::array<glm::vec3, kLightPathCount>;
 
 /// What the ray of one position in the picture meets: found once, all samples of that position start here.

@@ -19,7 +19,7 @@ namespace reference {
 
 namespace {
 
-constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 3, "a reference picture"};
+constexpr CheckpointKind kReference{{'g', 'l', 'o', 'a', 'm', 'r', 'e', 'f'}, 4, "a reference picture"};
 
 void checkRange(const char* name, int value, int low, int high) {
   if (value < low || value > high) {
@@ -161,20 +161,29 @@ std::vector<std::vector<double>> partCovariances(const PathSums& sums) {
   return products;
 }
 
-double noiseOf(const PathSums& sums) {
-  const std::size_t paths = sums.paths.size();
-  double variance = 0.0, light = 0.0;
+double meanVariance(const PathSums& sums) {
+  double variance = 0.0;
   for (std::size_t pixel = 0; pixel < sums.pixelCount(); ++pixel) {
-    const std::uint32_t samples = samplesOf(sums, pixel);
-    const glm::dvec3 of_pixel = independentVariance(sums, pixel, samples);
+    const glm::dvec3 of_pixel = independentVariance(sums, pixel, samplesOf(sums, pixel));
     variance += of_pixel.x + of_pixel.y + of_pixel.z;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 3 * paths; ++i) sum += sums.sums[pixel * paths * 3 + i];
-    light += sum / double(std::max(samples, 1u));
   }
   if (std::isinf(variance)) return variance;
-  const double values = 3.0 * double(sums.pixelCount());
-  return light > 0.0 ? std::sqrt(evenness(sums) * variance / values) / (light / values) : 0.0;
+  return evenness(sums) * variance / (3.0 * double(sums.pixelCount()));
+}
+
+double noiseOf(const PathSums& sums) {
+  const std::size_t paths = sums.paths.size();
+  double reflected = 0.0;
+  for (std::size_t pixel = 0; pixel < sums.pixelCount(); ++pixel) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3 * paths; ++i) {
+      if (sums.paths[i / 3] != kSeen) sum += sums.sums[pixel * paths * 3 + i];
+    }
+    reflected += sum / double(std::max(samplesOf(sums, pixel), 1u));
+  }
+  const double variance = meanVariance(sums), values = 3.0 * double(sums.pixelCount());
+  if (std::isinf(variance)) return variance;
+  return reflected > 0.0 ? std::sqrt(variance) / (reflected / values) : 0.0;
 }
 
 Fingerprint fingerprintOf(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
@@ -237,6 +246,10 @@ void PathTracer::refine(int samples, const Progress& progress) {
 
 int PathTracer::samples() const {
   return int(impl_->sums.least());
+}
+
+int PathTracer::mostSamples() const {
+  return int(impl_->sums.most());
 }
 
 double PathTracer::noise() const {

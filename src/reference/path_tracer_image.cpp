@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/reference_file.h"
 
@@ -53,8 +54,7 @@ std::map<std::string, std::string> attributesOf(const TracerState& state, const 
   const ReferenceOptions& options = state.options;
   std::string sources;
   for (const LightPath path : state.sums.paths) {
-    if (path != kSeen && covers(part, path))
-      sources += (sources.empty() ? "" : " ") + std::string(nameOf(path));
+    if (path < kSeen && covers(part, path)) sources += (sources.empty() ? "" : " ") + nameOf(path);
   }
   return {{"gloam.kind", "reference"},
           {"gloam.version", GLOAM_VERSION},
@@ -78,7 +78,7 @@ std::string varianceText(const PathSums& sums) {
   const std::vector<std::vector<double>> covariances = partCovariances(sums);
   std::string text;
   for (std::size_t a = 0; a < covariances.size(); ++a) {
-    text += (a == 0 ? "" : " ") + std::string(nameOf(sums.paths[a]));
+    text += (a == 0 ? "" : " ") + nameOf(sums.paths[a]);
     for (std::size_t b = 0; b <= a; ++b) text += fmt::format(" {:.6g}", covariances[a][b]);
   }
   return text;
@@ -114,6 +114,8 @@ LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool vari
   }
   result.attributes = attributesOf(state, part);
   if (variance) result.attributes["gloam.noise"] = fmt::format("{:.6g}", noiseOf(sums));
+  if (const double of_all = meanVariance(sums); variance && std::isfinite(of_all))
+    result.attributes[kVariance] = fmt::format("{:.6g}", of_all);
   const std::string covariances = variance && parts ? varianceText(sums) : "";
   if (!covariances.empty()) result.attributes[kPartVariance] = covariances;
   return result;

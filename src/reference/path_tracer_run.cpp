@@ -51,7 +51,7 @@ class Run {
   // Noise is looked at after numbers of samples that do not depend on interruptions: the same call stops at the same
   // number.
   void finish() {
-    const int started = tracer_.samples();
+    const int started = tracer_.mostSamples();  // noise was looked at before any pixel went on
     for (int check = firstCheck(); tracer_.samples() < goal_.samples; check = nextCheck(check)) {
       if (check < started) continue;
       refineTo(goal_.noise > 0.0f ? std::min(check, goal_.samples) : goal_.samples);

@@ -73,10 +73,12 @@ double evenness(const PathSums& sums);
 /// To be called for a pixel with a power of two of full rounds.
 void measureError(PathSums& sums, std::size_t pixel, std::uint32_t samples);
 
+/// Variance of the mean that a pixel holds, a value (R, G, B alike), on average over the picture. Infinite below two rounds.
+double meanVariance(const PathSums& sums);
 /// PathTracer::noise().
 double noiseOf(const PathSums& sums);
 /// Covariance of the errors of two paths' means, a value of a pixel (R, G, B alike), on average over the picture, for all
-/// pairs of PathSums::paths: [row][column]. All of them together are the square of noiseOf() times the mean of all light.
+/// pairs of PathSums::paths: [row][column]. All of them together are meanVariance().
 /// Empty below two rounds.
 std::vector<std::vector<double>> partCovariances(const PathSums& sums);
 

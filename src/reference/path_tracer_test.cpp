@@ -252,14 +252,15 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
       stage.options.seed = std::uint64_t(i);
       PathTracer tracer = stage.tracer();
       tracer.refine(32);
-      const LayeredImage image = tracer.image();
+      const LayeredImage image = tracer.imageWithParts();
       const Image light = image.image("", {"R", "G", "B"}, ""),
+                  seen = image.image("seen", {"R", "G", "B"}, ""),
                   variance = image.image("variance", {"R", "G", "B"}, "");
       for (std::size_t k = 0; k < sum.size(); ++k) {
         sum[k] += double(light.pixels[k]);
         squares[k] += double(light.pixels[k]) * double(light.pixels[k]);
         claimed += double(variance.pixels[k]) / kPictures;
-        mean += double(light.pixels[k]) / kPictures;
+        mean += double(light.pixels[k] - seen.pixels[k]) / kPictures;
       }
       claimed_noise += tracer.noise() / kPictures;
     }
@@ -274,6 +275,20 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
     EXPECT_LT(measured, 1.15 * claimed) << supersample;
     EXPECT_GT(measured, 0.5 * claimed) << supersample;
   }
+}
+
+TEST(PathTracer, NoiseIsThatOfWhatIsReflected) {
+  Stage stage;
+  stage.options.background = false;
+  const auto noise = [&] {
+    PathTracer tracer = stage.tracer();
+    tracer.refine(16);
+    return tracer.noise();
+  };
+  stage.options.light.emitter_direct = stage.options.light.emitter_indirect = false;
+  const double dark = noise();
+  for (Material& material : stage.scene.materials) material.emission = glm::vec3(100.0f);
+  EXPECT_NEAR(noise(), dark, 1e-6 * dark);  // seen, and without chance
 }
 
 TEST(PathTracer, NoiseBelowTwoRoundsIsInfiniteAndOfABlackPictureNone) {

@@ -44,6 +44,7 @@ class Paths {
   const Surfaces& surfaces() const { return surfaces_; }
   Sources direct() const { return direct_; }
   Sources indirect() const { return indirect_; }
+  int bounces() const { return last_depth_; }  ///< that paths make at most
 
  private:
   struct Batch;

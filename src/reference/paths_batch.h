@@ -45,8 +45,9 @@ struct Paths::Batch {
   }
   std::uint32_t used() const { return (1u << count) - 1u; }
   std::uint32_t going() const { return lanes.going & used(); }
-  void add(int lane, LightPath direct, const glm::vec3& radiance) {
-    light[std::size_t(lanes.slot.at[lane])][std::size_t(direct) + (depth > 0 ? 1u : 0u)] += radiance;
+  void add(int lane, LightPath direct, const glm::vec3& radiance) { addAfter(lane, direct, depth, radiance); }
+  void addAfter(int lane, LightPath direct, int bounces, const glm::vec3& radiance) {
+    light[std::size_t(lanes.slot.at[lane])][std::size_t(pathAfter(direct, bounces))] += radiance;
   }
   trace::Ray stepOf(int lane) const { return {lanes.origin.get(lane), lanes.direction.get(lane)}; }
   void record(const trace::Ray& ray, bool occlusion) {

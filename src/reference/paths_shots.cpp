@@ -65,8 +65,7 @@ void Paths::fromShots(Batch& batch) const {
     const trace::Ray ray{batch.lanes.origin.get(i), batch.toward.direction.get(i), 0.0f,
                          batch.toward.t_far.at[i]};
     batch.record(ray, true);
-    if (!tracer_.occluded(ray))
-      batch.light[std::size_t(batch.lanes.slot.at[i])][kLocalIndirect] += batch.toward.light.get(i);
+    if (!tracer_.occluded(ray)) batch.addAfter(i, kLocalDirect, batch.depth + 1, batch.toward.light.get(i));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "scene/coverage.h"
@@ -16,16 +17,18 @@ namespace reference {
 
 static_assert(std::size(kCoverageMembers) == kSeen);
 
-const char* nameOf(LightPath path) {
-  return path == kSeen ? "seen" : kCoverageMembers[path].name;
+std::string nameOf(LightPath path) {
+  if (path == kSeen) return "seen";
+  const std::string name = kCoverageMembers[memberOf(path)].name;
+  return bouncesOf(path) > 1 ? fmt::format("{}_{}", name, bouncesOf(path)) : name;
 }
 
 bool isDirect(LightPath path) {
-  return path == kSeen || kCoverageMembers[path].direct;
+  return path == kSeen || kCoverageMembers[memberOf(path)].direct;
 }
 
 bool covers(const Coverage& light, LightPath path) {
-  return path == kSeen || light.*kCoverageMembers[path].member;
+  return path == kSeen || light.*kCoverageMembers[memberOf(path)].member;
 }
 
 std::string coverageText(const Coverage& light) {
@@ -45,6 +48,7 @@ namespace {
 
 constexpr const char* kLight = "gloam.light";
 constexpr const char* kSources = "gloam.sources";
+constexpr const char* kBounces = "gloam.bounces";
 
 const std::string* attribute(const LayeredImage& image, const char* name) {
   const auto found = image.attributes.find(name);
@@ -70,26 +74,62 @@ Coverage sourcesOf(const LayeredImage& file, const Coverage& whole, const std::s
   return text ? both(whole, parseCoverage(*text, place + ": attribute gloam.sources")) : whole;
 }
 
+/// Bounces of paths that a file holds; nothing where it does not say.
+std::optional<int> bouncesIn(const LayeredImage& file) {
+  const std::string* text = attribute(file, kBounces);
+  int bounces = 0;
+  if (!text || std::sscanf(text->c_str(), "%d", &bounces) != 1 || bounces < 0) return std::nullopt;
+  return bounces;
+}
+
+/// What is asked of a file's light, and what it has.
+struct Asked {
+  Coverage part, there;
+  int bounces = kMaxBounces;        ///< at most
+  int bounces_there = kMaxBounces;  ///< the same where the file does not say
+  Asked(const LayeredImage& file, const Coverage& of, const Coverage& in_file, int most)
+      : part(of), there(in_file) {
+    if (most >= 0) bounces = most;
+    bounces_there = bouncesIn(file).value_or(kMaxBounces);
+  }
+  bool has(LightPath path) const { return covers(there, path) && bouncesOf(path) <= bounces_there; }
+  bool takes(LightPath path) const { return covers(part, path) && bouncesOf(path) <= bounces; }
+  bool all() const {
+    for (int p = 0; p < kLightPathCount; ++p) {
+      if (has(LightPath(p)) && !takes(LightPath(p))) return false;
+    }
+    return !cutsASum();
+  }
+  /// Light after many bounces is one sum.
+  bool cutsASum() const { return bounces >= kBouncesApart && bounces < bounces_there; }
+};
+
 /// Direct or indirect light of a part: the file's own layer where it is all of that, 0 where it is nothing, else the sum of
 /// the parts' layers.
-Image lightOfPart(const LayeredImage& file, const Coverage& part, const Coverage& there, bool direct,
-                  const std::string& place) {
+Image lightOfPart(const LayeredImage& file, const Asked& asked, bool direct, const std::string& place) {
   bool all = true, nothing = !direct;  // what is seen is always direct
-  for (int p = 0; p < kSeen; ++p) {
-    if (isDirect(LightPath(p)) != direct || !covers(there, LightPath(p))) continue;
-    (covers(part, LightPath(p)) ? nothing : all) = false;
+  for (int p = 0; p < kLightPathCount; ++p) {
+    const LightPath path{p};
+    if (path == kSeen || isDirect(path) != direct || !asked.has(path)) continue;
+    (asked.takes(path) ? nothing : all) = false;
   }
+  if (!direct && !nothing && asked.cutsASum()) all = false;
   const std::vector<std::string> rgb{"R", "G", "B"};
   if (all) return file.image(direct ? "direct" : "indirect", rgb, place);
   Image sum(file.width, file.height, 3);
   if (nothing) return sum;
   if (!file.find(nameOf(kSeen))) {
     throw Error(place, fmt::format("holds {} in one sum; {} alone is in a file of gloam reference --parts",
-                                   coverageText(there), coverageText(both(part, there))));
+                                   coverageText(asked.there), coverageText(both(asked.part, asked.there))));
+  }
+  if (!direct && asked.cutsASum()) {
+    throw Error(
+        place, fmt::format("holds light of {} bounces and more in one sum; up to {} of its {} were asked for",
+                           kBouncesApart, asked.bounces, asked.bounces_there));
   }
   for (int p = 0; p < kLightPathCount; ++p) {
     const LightPath path{p};
-    if (isDirect(path) != direct || !covers(part, path) || !covers(there, path)) continue;
+    if (isDirect(path) != direct || !asked.takes(path) || !asked.has(path)) continue;
     const Image layer = file.image(nameOf(path), rgb, place);
     for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
   }
@@ -108,16 +148,17 @@ Coverage coverageOf(const LayeredImage& file, const std::string& place) {
   return parseCoverage(*light, place + ": attribute gloam.light");
 }
 
-LayeredImage imageOf(const LayeredImage& file, const Coverage& part, const std::string& place) {
+LayeredImage imageOf(const LayeredImage& file, const Coverage& part, const std::string& place, int bounces) {
   const Coverage whole = coverageOf(file, place);
   if (!isPartOf(part, whole)) {
     throw Error(place, fmt::format("holds {}; {} was asked for", coverageText(whole), coverageText(part)));
   }
   const Coverage there = sourcesOf(file, whole, place);
-  const Image direct = lightOfPart(file, part, there, true, place);
-  const Image indirect = lightOfPart(file, part, there, false, place);
+  const Asked asked(file, part, there, bounces);
+  const Image direct = lightOfPart(file, asked, true, place);
+  const Image indirect = lightOfPart(file, asked, false, place);
   Image sum = file.image("", {"R", "G", "B", "A"}, place);
-  if (both(part, there) != there) {
+  if (!asked.all()) {
     for (std::size_t i = 0; i < sum.pixelCount(); ++i) {
       for (std::size_t c = 0; c < 3; ++c)
         sum.pixels[4 * i + c] = direct.pixels[3 * i + c] + indirect.pixels[3 * i + c];
@@ -135,17 +176,28 @@ LayeredImage imageOf(const LayeredImage& file, const Coverage& part, const std::
   result.attributes = file.attributes;
   result.attributes[kLight] = coverageText(part);
   result.attributes[kSources] = coverageText(both(part, there));
+  result.attributes[kBounces] = std::to_string(std::min(asked.bounces, asked.bounces_there));
   result.attributes.erase("gloam.noise");
+  result.attributes.erase(kVariance);
   result.attributes.erase(kPartVariance);
   return result;
 }
 
-std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part, const std::string& place) {
-  const std::string* text = attribute(file, kPartVariance);
-  if (!text) return std::nullopt;
+std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part, const std::string& place,
+                                 int bounces) {
+  const std::string *text = attribute(file, kPartVariance), *of_all = attribute(file, kVariance);
   const auto damaged = [&](const std::string& what) {
-    return Error(place, fmt::format("attribute {}: {}", kPartVariance, what));
+    return Error(place, fmt::format("attribute {}: {}", text ? kPartVariance : kVariance, what));
   };
+  const Asked asked(file, part, text ? kAllLight : sourcesOf(file, coverageOf(file, place), place), bounces);
+  if (!text) {
+    if (!of_all || !asked.all()) return std::nullopt;
+    double value = 0.0;
+    if (!(std::istringstream(*of_all) >> value) || !(value >= 0.0) || std::isinf(value))
+      throw damaged(fmt::format("'{}'; expected a positive number", *of_all));
+    return value;
+  }
+  if (asked.cutsASum()) return std::nullopt;
   std::istringstream words(*text);
   std::vector<bool> taken;  // of the paths so far
   double variance = 0.0;
@@ -154,7 +206,7 @@ std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part,
     while (path < kLightPathCount && name != nameOf(LightPath(path))) ++path;
     if (path == kLightPathCount) throw damaged(fmt::format("'{}' is no kind of light", name));
     if (taken.size() == kLightPathCount) throw damaged("more than all kinds of light");
-    taken.push_back(covers(part, LightPath(path)));
+    taken.push_back(asked.takes(LightPath(path)));
     for (std::size_t other = 0; other < taken.size(); ++other) {
       double value = 0.0;
       if (!(words >> value) || !std::isfinite(value))

@@ -14,9 +14,12 @@ namespace gloam::reference {
 inline constexpr int kMaxBounces = 1000;
 /// Attribute: variances and covariances of parts, which varianceOf() reads.
 inline constexpr const char* kPartVariance = "gloam.part_variance";
+/// The same of all light together.
+inline constexpr const char* kVariance = "gloam.variance";
 
 /// "environment_direct", …, "seen": layers, and words of the attributes gloam.light and gloam.sources.
-const char* nameOf(LightPath path);
+/// Indirect light of more bounces than one has their number: "environment_indirect_2".
+std::string nameOf(LightPath path);
 bool isDirect(LightPath path);  ///< also what is seen
 /// kSeen always.
 bool covers(const Coverage& light, LightPath path);

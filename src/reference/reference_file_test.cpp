@@ -92,8 +92,9 @@ TEST(ReferenceFile, PartsAddUpAndAgreeWithTheTracersOwn) {
   tracer.refine(8);
   const LayeredImage file = tracer.imageWithParts();
   double sum = 0.0;
-  for (const char* name : {"environment_direct", "environment_indirect", "local_direct", "local_indirect",
-                           "emitter_direct", "emitter_indirect", "seen"}) {
+  for (const char* name :
+       {"environment_direct", "environment_indirect", "local_direct", "local_indirect", "emitter_direct",
+        "emitter_indirect", "environment_indirect_2", "local_indirect_2", "emitter_indirect_2", "seen"}) {
     EXPECT_GT(meanOf(file, name), 0.0) << name;
     sum += meanOf(file, name);
   }
@@ -107,6 +108,33 @@ TEST(ReferenceFile, PartsAddUpAndAgreeWithTheTracersOwn) {
       }
     }
   }
+}
+
+// Samples of a path do not know how many follow: up to two bounces of a picture of five are those of one of two, to the bit.
+TEST(ReferenceFile, LightOfFewerBouncesIsWhatARunOfSoManyGives) {
+  Lit lit;
+  lit.options.bounces = 5;
+  const LayeredImage file = lit.render(kAllLight, true, 8);
+  for (const char* name : {"environment_indirect_2", "local_indirect_3", "emitter_indirect_4"})
+    EXPECT_GT(meanOf(file, name), 0.0) << name;
+  double last = -1.0;
+  for (const int bounces : {0, 1, 2, 3}) {
+    lit.options.bounces = bounces;
+    const LayeredImage taken = imageOf(file, kAllLight, "five.exr", bounces);
+    const LayeredImage alone = lit.render(kAllLight, false, 8);
+    EXPECT_EQ(taken.attributes.at("gloam.bounces"), std::to_string(bounces));
+    const Image a = taken.image("", {"R", "G", "B"}, ""), b = alone.image("", {"R", "G", "B"}, "");
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+      EXPECT_NEAR(a.pixels[i], b.pixels[i], 1e-5f * std::max(1.0f, b.pixels[i])) << bounces;
+    EXPECT_GT(meanOf(taken, "indirect"), last);
+    last = meanOf(taken, "indirect") - 1e-9;
+    EXPECT_TRUE(varianceOf(file, kAllLight, "", bounces).has_value());
+  }
+  const std::string error = errorOf([&] { imageOf(file, kAllLight, "five.exr", 4); });
+  EXPECT_NE(error.find("five.exr: holds light of 4 bounces and more in one sum"), std::string::npos) << error;
+  EXPECT_FALSE(varianceOf(file, kAllLight, "", 4).has_value());
+  EXPECT_EQ(imageOf(file, kAllLight, "", 5).find("")->pixels, file.find("")->pixels);
+  EXPECT_EQ(imageOf(file, kAllLight, "", 9).find("indirect")->pixels, file.find("indirect")->pixels);
 }
 
 TEST(ReferenceFile, AFileWithoutPartsGivesWhatNeedsNone) {
@@ -150,7 +178,10 @@ TEST(ReferenceFile, SaysWhatTheNoiseOfAPartIs) {
     }
     if (picture > 0) continue;
     const double noise = std::stod(file.attributes.at("gloam.noise"));
-    EXPECT_NEAR(std::sqrt(*varianceOf(file, kAllLight, "")), noise * meanOf(file, ""), 1e-3 * noise);
+    const double reflected = meanOf(file, "") - meanOf(file, "seen");
+    EXPECT_NEAR(std::sqrt(*varianceOf(file, kAllLight, "")), noise * reflected, 1e-3 * noise);
+    EXPECT_NEAR(std::stod(file.attributes.at("gloam.variance")), *varianceOf(file, kAllLight, ""),
+                1e-4 * noise);
   }
   for (std::size_t k = 0; k < kParts.size(); ++k) {
     for (std::size_t i = 0; i < sums[k].size(); ++i) {
@@ -165,7 +196,10 @@ TEST(ReferenceFile, SaysWhatTheNoiseOfAPartIs) {
 
 TEST(ReferenceFile, NoiseOfAPartIsNotGuessed) {
   Lit lit;
-  EXPECT_FALSE(varianceOf(lit.render(kAllLight, false, 4), kAllLight, "").has_value());
+  const LayeredImage whole = lit.render(kAllLight, false, 4);
+  EXPECT_TRUE(varianceOf(whole, kAllLight, "").has_value());
+  EXPECT_FALSE(varianceOf(whole, kParts[1], "").has_value());
+  EXPECT_FALSE(varianceOf(whole, kAllLight, "", 1).has_value());
   EXPECT_FALSE(varianceOf(lit.render(kAllLight, true, 1), kAllLight, "").has_value());
   LayeredImage file = lit.render(kAllLight, true, 4);
   for (const char* damaged : {"environment_direct", "environment_direct x", "moonlight 1", "seen 1 seen 1",

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -47,11 +48,15 @@ struct Estimate {
   double mean = 0.0, error = 0.0;
 };
 
+/// Indirect light after any number of bounces.
 using Part = std::function<double(const PathLight&)>;
 inline Part sumOf(std::vector<LightPath> paths) {
   return [paths](const PathLight& light) {
     double sum = 0.0;
-    for (const LightPath path : paths) sum += double(light[std::size_t(path)].g);
+    for (int path = 0; path < kLightPathCount; ++path) {
+      if (std::ranges::find(paths, memberOf(LightPath(path))) != paths.end())
+        sum += double(light[std::size_t(path)].g);
+    }
     return sum;
   };
 }

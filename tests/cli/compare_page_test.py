@@ -304,6 +304,7 @@ class Page(Compared):
         dashes = self.evaluate("""[...document.querySelectorAll('#plot .floor')].map((line) =>
             [line.textContent, ...['x1', 'x2', 'y1'].map((a) => Number(line.getAttribute(a)))])""")
         self.assertTrue(dashes)
+        self.assertIn("Dashed: what the noise of", self.evaluate("document.getElementById('plot-caption').textContent"))
         for text, left, right, at in dashes:
             [(index, _, dot)] = [p for p in points if text.startswith(f"noise of what {techniques[p[0]]['label']} is held to")]
             self.assertTrue(left <= points[[p[0] for p in points].index(index)][1] <= right)

@@ -245,6 +245,33 @@ class Lists(CliTest):
                               "--techniques", "spherical_lights", "-o", "out")
         self.assertIn("spherical_lights: light of 'pane' is missing: it has no spheres", answer.err)
 
+    def test_each_is_held_to_its_own_bounces(self):
+        shadow = "builtin:shadow?detail=0.3"
+        small = ["compare", shadow, "--size", "24x16", "--env", "sky:noon", "--frames", "1", "--techniques", "proxies"]
+        one = json.loads(self.succeed(*small, "--bounces", "1", "--spp", "8", "--json", "-o", "one").out)
+        answer = self.succeed(*small, "--bounces", "2", "--spp", "8", "-o", "two")
+        self.assertIn("of 2 bounces traced, each is held to its own: proxies to 1", answer.err)
+        two = json.loads(self.path("two/results.json").read_text(encoding="utf-8"))
+        self.assertEqual([one["bounces"], two["bounces"], two["techniques"][0]["bounces"]], [1, 2, 1])
+        for name in MEASURES:
+            self.assertAlmostEqual(one["techniques"][0][name], two["techniques"][0][name], delta=1e-3 * abs(one["techniques"][0][name]))
+        self.succeed("reference", shadow, "--size", "24x16", "--env", "sky:noon", "--no-background", "--bounces", "2", "--spp", "2", "-o", "sum.exr")
+        given = [part for part in small if part not in ("--size", "24x16")]
+        answer = self.succeed(*given, "--reference", "sum.exr", "-o", "given")
+        self.assertIn("proxies: its light has 1 bounce, the reference 2 in one sum: what is missing counts as error", answer.err)
+
+    def test_what_shines_itself_is_not_measured(self):
+        small = ["compare", "builtin:lanterns?detail=0.3", "--size", "48x32", "--spp", "4", "--frames", "1", "--techniques", "irradiance"]
+        results = json.loads(self.succeed(*small, "--json", "-o", "out").out)
+        _, _, truth, _ = exr.read(self.path("out/reference_irradiance.exr"))
+        seen = [max(truth[f"seen.{c}"][i] for c in "RGB") for i in range(48 * 32)]
+        measured = sum(alpha > 0 and shines <= 0 for alpha, shines in zip(truth["A"], seen))
+        self.assertGreater(sum(shines > 0 for shines in seen), 0)
+        self.assertEqual(self.succeed_json("diff", "out/irradiance.exr", "out/reference_irradiance.exr", "--foreground")["pixels"], measured)
+        command = shlex.split(results["techniques"][0]["command"])
+        for name in MEASURES:
+            self.assertEqual(self.succeed_json(*command[1:])[name], results["techniques"][0][name])
+
     def test_a_folder_keeps_no_pictures_of_another_comparison(self):
         small = ["compare", BOX, "--size", "16x12", "--env", "sky:noon", "--spp", "2", "--frames", "1", "-o", "out"]
         self.succeed(*small, "--techniques", "irradiance,irradiance:order=2")

@@ -23,7 +23,7 @@ function buildHead() {
   byId('title').textContent = page.title;
   const leaf = (path) => path.split('/').pop();
   const facts = [leaf(results.scene), results.environment ? `light: ${leaf(results.environment)}` : 'no light from afar', `${results.size.replace('x', ' × ')} pixels`,
-    `${results.bounces} ${results.bounces === 1 ? 'bounce' : 'bounces'}`, results.device];
+    bouncesText(results.bounces), results.device];
   byId('facts').append(...facts.map((fact) => make('span', {}, fact)));
   byId('headline').textContent = sentence();
 }
@@ -41,10 +41,10 @@ function buildAbout() {
   const reference = results.reference;
   const about = byId('about');
   about.append(make('p', {}, 'Each technique is held against a path-traced reference of the same scene, camera, light and materials that holds only the light '
-    + 'which the technique covers. The light behind the scene is left out of pictures and measures.'));
+    + 'which the technique covers, after as many bounces. The light behind the scene is left out of pictures and measures, and what shines itself out of measures.'));
   const facts = [['scene', results.scene], ...(results.environment ? [['light', results.environment]] : []), ['reference', reference.text], ...(reference.relative_noise !== null ? [['noise', `makes ${percent(reference.relative_noise)} relative error by itself, of all light; that of what each technique is held to is dashed in the plot`]] : []),
     ...(results.environment_order > 0 ? [['its light', `the environment’s projection to ${results.environment_order} bands of spherical harmonics`]] : []),
-    ['page', page.shrink > 1 ? `pictures here at 1/${page.shrink} of their size; all measures are of the full size` : 'pictures in full size, linear half floats'],
+    ['page', page.shrink > 1 ? `pictures here at 1/${page.shrink} of their size; all measures are of the full size` : 'pictures in full size, linear half floats; all light is the sum of its two layers'],
     ['gloam', results.version]];
   about.append(make('dl', {}, facts.flatMap(([term, text]) => [make('dt', {}, term), make('dd', {}, text)])));
   about.append(make('h3', {}, 'This page'), commandLine(results.command), make('h3', {}, 'Its numbers, one technique a line'),

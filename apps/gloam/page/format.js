@@ -10,6 +10,7 @@ function significant(value, digits = 3) {
   return text.replace('-', '−');
 }
 const percent = (value, digits = 2) => value === null || !Number.isFinite(value) ? '–' : `${significant(100 * value, digits)}\u00a0%`;
+const bouncesText = (count) => `${count} ${count === 1 ? 'bounce' : 'bounces'}`;
 const milliseconds = (value) => value === null || value === undefined ? '–' : `${significant(value)}\u00a0ms`;
 
 function bytesText(bytes) {

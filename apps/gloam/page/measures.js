@@ -76,7 +76,7 @@ function updateMeasures() {
   for (const index of sortedTechniques()) table.append(techniqueBody(index, best));
   const layerName = layers.find(([name]) => name === state.layer)[1].toLowerCase();
   byId('measures-note').textContent = `Of ${state.layer === 'sum' ? 'all light that a technique covers' : `${layerName} light`}, `
-    + 'over the pixels in which a surface is seen. The choice of light above the pictures holds here too. A technique’s name opens its passes and settings.';
+    + 'over the pixels in which a surface is seen that does not shine itself. The choice of light above the pictures holds here too. A technique’s name opens its passes and settings.';
 }
 
 function techniqueBody(index, best) {
@@ -84,7 +84,8 @@ function techniqueBody(index, best) {
   const toggle = make('button', {type: 'button', class: 'expander', 'aria-expanded': String(open.has(index)), 'aria-controls': `details-${index}`,
     onclick: () => { open.has(index) ? open.delete(index) : open.add(index); updateMeasures(); document.querySelector(`[data-technique="${index}"] .expander`).focus(); }}, technique.label);
   const missing = technique.leaves_out.length ? make('small', {}, `without ${lightWords(technique.leaves_out)}`) : null;
-  const row = make('tr', {}, make('th', {scope: 'row'}, toggle, missing),
+  const fewer = technique.bounces < results.bounces ? make('small', {}, `without light of more than ${bouncesText(technique.bounces)}`) : null;
+  const row = make('tr', {}, make('th', {scope: 'row'}, toggle, missing, fewer, technique.notes.map((note) => make('small', {}, note))),
     columns.map(([key, heading, , value, text], c) => {
       const v = value(measuresOf(technique, state.layer), technique) ?? null;
       return make('td', {'data-key': key, 'data-value': v, 'data-label': {device_ms: 'Device, ms', psnr: 'PSNR, dB'}[key] ?? heading, class: v !== null && v === best[c] ? 'best' : null,
@@ -112,6 +113,7 @@ function details(technique) {
     make('div', {}, make('h3', {}, 'Light and settings'), list([
       ['covers', lightWords(technique.covers)],
       ['leaves out', lightWords(technique.leaves_out) || 'nothing that this scene has'],
+      ['bounces', String(technique.bounces)],
       ...Object.entries(technique.settings).map(([name, value]) => [name, String(value)]),
       ...(technique.bake_note ? [['bake', technique.bake_note]] : []),
       ...technique.notes.map((note) => ['note', note]),

@@ -112,9 +112,18 @@ function mapped(colors, value, out) {
   out[0] = colors[i] / 255, out[1] = colors[i + 1] / 255, out[2] = colors[i + 2] / 255;
 }
 
+/// A technique that is not to have such light is neither right nor wrong about it.
+function claimsNone(picture, layer) {
+  return picture.technique !== null && layer !== 'sum' && results.techniques[picture.technique][layer].rmse === null;
+}
+function hatched() {
+  return painted((pixel, out) => out.fill((pixel % width + Math.floor(pixel / width)) % 8 < 2 ? 0.32 : 0.24));
+}
+
 /// kind: "difference" (times a factor, grey where equal), "false" (|a - b| over the reference's mean), "flip".
 function differenceCanvas(picture, layer, kind, factor, display) {
   const reference = page.pictures[picture.reference];
+  if (claimsNone(picture, layer)) return hatched();
   if (kind === 'flip') {
     const map = picture.maps[layer];
     return painted((pixel, out) => mapped(colorMaps.flip, map ? map[pixel] / 255 : 0, out));

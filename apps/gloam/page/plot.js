@@ -46,11 +46,11 @@ function updatePlot() {
   const y = axis(points.map((p) => p.y), size.height - size.bottom, size.top, format);
   const svg = make('svg:svg', {viewBox: `0 0 ${size.width} ${size.height}`, role: 'group', 'aria-label': `${name} against device time a frame`});
   drawAxes(svg, x, y, size, name);
-  if (name === plotMeasures[0][1]) drawNoise(svg, points, x, y, size);
+  const noise = name === plotMeasures[0][1] ? drawNoise(svg, points, x, y, size) : '';
   for (const technique of techniqueNames) drawCurve(svg, points.filter((p) => p.technique.name === technique), x, y);
   drawPoints(svg, points, x, y, size, format, narrow);
   holder.append(svg);
-  byId('plot-caption').textContent = `Lower left is better.${x.log || y.log ? ' Scales are logarithmic where values span more than a factor of eight.' : ''}`;
+  byId('plot-caption').textContent = `Lower left is better.${x.log || y.log ? ' Scales are logarithmic where values span more than a factor of eight.' : ''}${noise}`;
 }
 
 function drawAxes(svg, x, y, size, name) {
@@ -72,21 +72,20 @@ function drawAxes(svg, x, y, size, name) {
 }
 
 /// The relative error that noise makes by itself: a line where it is the same for all, else a dash under each point, since what
-/// techniques are held to is not the same light.
+/// techniques are held to is not the same light. Returns what the caption says of it.
 function drawNoise(svg, points, x, y, size) {
-  if (state.layer !== 'sum') return;
+  if (state.layer !== 'sum') return '';
   const noiseOf = ({technique}) => technique.reference_noise;
   const known = points.filter((p) => noiseOf(p) !== null);
   const shown = known.filter((p) => y.at(noiseOf(p)) > size.top && y.at(noiseOf(p)) < size.height - size.bottom);
-  if (shown.length === 0) return;
+  if (shown.length === 0) return '';
   const same = known.length === points.length && Math.max(...known.map(noiseOf)) < 1.05 * Math.min(...known.map(noiseOf));
   for (const point of same ? shown.slice(0, 1) : shown) {
     const at = y.at(noiseOf(point)), middle = x.at(point.x);
     const [from, to] = same ? [size.left, size.width - size.right] : [Math.max(middle - 22, size.left), Math.min(middle + 22, size.width - size.right)];
     svg.append(make('svg:line', {class: 'floor', x1: from, x2: to, y1: at, y2: at}, make('svg:title', {}, `noise of what ${same ? 'all are' : `${point.technique.label} is`} held to: ${percent(noiseOf(point))}`)));
   }
-  const first = same ? size.left + 6 : Math.max(x.at(shown[0].x) - 22, size.left), at = y.at(noiseOf(shown[0]));
-  svg.append(make('svg:text', {class: 'axis halo', x: first, y: at + 14}, same ? 'noise of the reference' : 'noise of its reference'));
+  return same ? ' Dashed: what the noise of the reference makes by itself.' : ' Dashed: what the noise of what each is held to makes by itself.';
 }
 
 function drawCurve(svg, points, x, y) {

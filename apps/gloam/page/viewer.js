@@ -123,7 +123,8 @@ class Pane {
     const technique = page.pictures[this.shows[0]].technique;
     const measures = technique === null ? null : measuresOf(results.techniques[technique], state.layer);
     const figures = measures && measures.rmse !== null
-      ? `${percent(Math.sqrt(measures.relative_squared_error ?? NaN))} error, FLIP ${significant(measures.flip)}` : '';
+      ? `${percent(Math.sqrt(measures.relative_squared_error ?? NaN))} error, FLIP ${significant(measures.flip)}`
+      : technique !== null && claimsNone(page.pictures[this.shows[0]], state.layer) ? `claims no ${light} light` : '';
     if (this.figures) this.figures.textContent = figures;
     if (this.corners) this.corners.forEach((corner, i) => { corner.textContent = names[i]; });
     const what = this.shows.length === 2 ? `${names[0]} left of the divider, ${names[1]} right of it`
