@@ -27,13 +27,10 @@ layout(scalar, push_constant) uniform Push { int part; } push;
 const float kPi = 3.14159265;
 const float kLargestHalf = 65504.0;
 
-/// What three bands lack of the light of each colour.
-void addBeyond(inout vec3 to_diffuse, inout vec3 to_gloss, const vec3 light[9], vec3 normal, vec3 mirror, float n, float shown) {
-  for (int color = 0; color < 3; ++color) {
-    Beams of_color = beamsOf(light, color);
-    to_diffuse[color] += irradianceBeyond(of_color, normal);
-    to_gloss[color] += glossBeyond(of_color, n, shown, mirror);
-  }
+/// What three bands lack of the light of one colour.
+void addBeyond(inout float to_diffuse, inout float to_gloss, Beams beams_, vec3 normal, vec3 mirror, float n, float shown) {
+  to_diffuse += irradianceBeyond(beams_, normal);
+  to_gloss += glossBeyond(beams_, n, shown, mirror);
 }
 
 void main() {
@@ -52,7 +49,11 @@ void main() {
       to_diffuse = kPi * shadeLambert3(light, normal);
       float exponent = phongExponent(texelFetch(diffuse, pixel, 0).a), shown = min(exponent, kSharpestLobe);
       to_gloss = shadePhong3(light, mirror, shown);
-      if (beams) addBeyond(to_diffuse, to_gloss, light, normal, mirror, exponent, shown);
+      if (beams) {  // written out: software drivers spill arrays whose index a loop counts
+        addBeyond(to_diffuse.r, to_gloss.r, beamsOf(light, 0), normal, mirror, exponent, shown);
+        addBeyond(to_diffuse.g, to_gloss.g, beamsOf(light, 1), normal, mirror, exponent, shown);
+        addBeyond(to_diffuse.b, to_gloss.b, beamsOf(light, 2), normal, mirror, exponent, shown);
+      }
     } else {
       readLobes(to_diffuse, to_gloss, pixel, push.part);
     }

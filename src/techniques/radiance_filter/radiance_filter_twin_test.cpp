@@ -206,7 +206,7 @@ TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
         const glm::vec3 between = row.end.position - point.position;
         const float squared = glm::dot(between, between);
         way = between / std::sqrt(squared);
-        light *= std::max(0.0f, -glm::dot(way, row.end.normal)) / std::max(squared, 16.0f * row.bound);
+        light *= std::max(0.0f, -glm::dot(way, row.end.normal)) / std::max(squared, settings.number("bound") * row.bound);
       }
       const sh::Sh basis = sh::evaluate(3, way);
       for (int i = 0; i < 9; ++i) sum[i] += light * basis[i];
