@@ -138,7 +138,11 @@ Gathered gather(vec3 position, vec3 normal) {
         got.indirect += radiance * share;
         got.unblocked += radiance * irradianceOfDisc(seen, normal);
       }
-      if (glows) glowing += GLOAM_RADIANCE(glow.at[i]) * share;
+      if (glows) {
+        vec3 radiance = GLOAM_RADIANCE(glow.at[i]) * share;
+        if (radiance != vec3(0.0))
+          glowing += radiance * ballPastPatches(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      }
     }
     if (final) got.direct += glowing;
     ++i;

@@ -30,6 +30,27 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   return sum;
 }
 
+/// How much of a ball that shines rectangles leave: each as it stands on the way to its middle, its edges as blurred as from a disc that
+/// large. None stands before its own surface, or before a ball that it touches.
+float ballPastPatches(vec3 position, vec3 normal, vec3 center, float radius) {
+  vec3 way = center - position;
+  float far = length(way), left = 1.0;
+  for (uint j = 0u; j < push.params.blocking_patches; ++j) {
+    PatchRow row = blocking_patches.at[j];
+    float height = dot(row.center - position, row.normal), slope = dot(way, row.normal);
+    float t = abs(slope) > 1e-9 ? height / slope : -1.0;
+    if (t <= 0.0 || t >= 1.0) continue;
+    vec3 hit = position + t * way - row.center;
+    vec2 size = max(vec2(length(row.half_u), length(row.half_v)), vec2(1e-9));
+    vec2 inside = size - abs(vec2(dot(hit, row.half_u), dot(hit, row.half_v))) / size;
+    vec2 share = clamp(0.5 + 0.5 * inside / max(t * radius, 1e-4), vec2(0.0), vec2(1.0));
+    float own = smoothstep(0.5, 0.9, abs(dot(normal, row.normal)));
+    float there = 1.0 - own * (1.0 - smoothstep(0.5, 1.0, abs(height) / (kPatchOwn * min(size.x, size.y))));
+    left *= 1.0 - share.x * share.y * there * clamp((1.0 - t) * far / radius - 1.0, 0.0, 1.0);
+  }
+  return left;
+}
+
 /// Irradiance from patches, each through what spheres leave of its cone; w: that of patches of radiance 1.
 vec4 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
   vec4 sum = vec4(0.0);

@@ -79,7 +79,11 @@ Gathered receive(vec3 position, vec3 normal) {
         got.indirect += radiance * share;
         got.unblocked += radiance * open;
       }
-      if (glows) got.direct += GLOAM_RADIANCE(glow.at[i]) * share;
+      if (glows) {
+        vec3 radiance = GLOAM_RADIANCE(glow.at[i]) * share;
+        if (radiance != vec3(0.0))
+          got.direct += radiance * ballPastPatches(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      }
     }
   }
   // What spheres leave, through which patches are seen; how much of that patches take; then both before the environment.

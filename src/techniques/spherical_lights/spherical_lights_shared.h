@@ -97,6 +97,8 @@ GLOAM_SHARED_SIZE(SentRow, 192)
 
 /// What patches take of the view is found from a few cones: that much more may come from them.
 GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
+/// How far from its plane, in its lesser half side, a surface that lies along a patch may be its own: one stands in the middle of a thing.
+GLOAM_SHARED_CONST float kPatchOwn = 1.3f;
 /// Samples of one.
 GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 

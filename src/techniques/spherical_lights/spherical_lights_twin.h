@@ -96,7 +96,8 @@ class Twin {
         share = sh::dot(sh::product(sh::expQuadratic(before), disc), cosine);
       }
       if (i < sent_.size()) light.indirect += std::max(0.0f, share) * average(sent_[i], seen);
-      if (i < glow_.size()) light.direct += std::max(0.0f, share) * average(glow_[i], seen);
+      if (i < glow_.size())
+        light.direct += std::max(0.0f, share) * pastPatches(p, n, rows_.spheres[i]) * average(glow_[i], seen);
     }
     return light;
   }
@@ -104,6 +105,27 @@ class Twin {
  private:
   spheres::SeenSphere see(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
     return spheres::seenSphere(p, n, rows_.spheres[i].center, rows_.spheres[i].radius);
+  }
+
+  /// What rectangles leave of a ball, each alone.
+  float pastPatches(const glm::vec3& p, const glm::vec3& n, const SphereRow& ball) const {
+    float left = 1.0f;
+    for (const PatchRow& row : rows_.blocking_patches) {
+      const float from = glm::dot(p - row.center, row.normal),
+                  to = glm::dot(ball.center - row.center, row.normal);
+      if (from * to >= 0.0f) continue;  // both on one side
+      const float t = from / (from - to);
+      const glm::vec3 hit = glm::mix(p, ball.center, t) - row.center;
+      float covered = glm::clamp((1.0f - t) * glm::distance(p, ball.center) / ball.radius - 1.0f, 0.0f, 1.0f);
+      for (const glm::vec3& half : {row.half_u, row.half_v}) {
+        const float inside = glm::length(half) - std::abs(glm::dot(hit, glm::normalize(half)));
+        covered *= glm::clamp(0.5f + 0.5f * inside / (t * ball.radius), 0.0f, 1.0f);
+      }
+      const float own = glm::smoothstep(0.5f, 0.9f, std::abs(glm::dot(n, row.normal)));
+      const float reach = kPatchOwn * std::min(glm::length(row.half_u), glm::length(row.half_v));
+      left *= 1.0f - covered * (1.0f - own * (1.0f - glm::smoothstep(0.5f, 1.0f, std::abs(from) / reach)));
+    }
+    return left;
   }
 
   /// Corner by corner, as Lambert has it, in double precision.
