@@ -48,58 +48,18 @@ Crowd crowdOf(int count) {
   return {builder.finish(), {.sets = {set}}};
 }
 
-struct Point {
-  int count = 0;
-  Timings timings;
-  double frame_ms = 0.0, light_ms = 0.0;
-};
-
-std::vector<Point> measurePoints(Renderer& renderer, const RenderOptions& options, int frames,
-                                 Console& console) {
-  std::vector<Point> points;
-  for (const int count : technique(options.technique).needs_emission ? kCountsBehindOthers : kCounts)
-    points.push_back({.count = count});
-  const Progress progress = console.progress();
-  const int each = std::max(1, (frames + kTurns - 1) / kTurns);
-  double done = 0.0;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    for (Point& point : points) {
-      const Crowd crowd = crowdOf(point.count);
-      renderer.setScene(crowd.scene);
-      giveSpheres(renderer, technique(options.technique), crowd.scene, crowd.spheres, "crowd", false,
-                  console);
-      const PosedScene posed = pose(crowd.scene, 0.0f);
-      for (int i = -1; i < each; ++i) {
-        if (interrupted()) throw Interrupted("interrupted: no figures");
-        progress.report(done++ / double(kTurns * int(points.size()) * (each + 1)),
-                        fmt::format("{} spheres", point.count));
-        const RenderedFrame frame = renderer.render(posed, posed.cameras.at(0), options);
-        double all = 0.0;
-        for (const PassTime& pass : frame.passes) all += pass.milliseconds;
-        if (i >= 0) point.timings.add(frame, all);
-      }
-    }
-  }
-  console.endProgress();
-  for (Point& point : points) {
-    point.frame_ms = point.timings.medianPassesMs();
-    point.light_ms = point.timings.medianMs(options.technique + ".");
-  }
-  return points;
-}
-
 /// Microseconds of light that each sphere more costs, from the point before.
-double microsecondsMore(const std::vector<Point>& points, std::size_t i) {
+double microsecondsMore(const std::vector<ScalingPoint>& points, std::size_t i) {
   return 1e3 * (points[i].light_ms - points[i - 1].light_ms) / double(points[i].count - points[i - 1].count);
 }
 
-Plot plotOf(const std::vector<Point>& points, const std::string& device, const std::string& size) {
+Plot plotOf(const std::vector<ScalingPoint>& points, const std::string& device, const std::string& size) {
   Plot plot{.title = "Time of a frame over the number of proxies",
             .across = "proxies",
             .up = "milliseconds",
             .curves = {{"whole frame", {}}, {"light alone", {}}},
             .notes = {fmt::format("{}, {}", device, size)}};
-  for (const Point& point : points) {
+  for (const ScalingPoint& point : points) {
     plot.places.push_back(point.count);
     plot.curves[0].values.push_back(point.frame_ms);
     plot.curves[1].values.push_back(point.light_ms);
@@ -107,11 +67,11 @@ Plot plotOf(const std::vector<Point>& points, const std::string& device, const s
   return plot;
 }
 
-void print(const std::vector<Point>& points, const std::string& device, const std::string& size, int frames,
-           Console& console) {
+void print(const std::vector<ScalingPoint>& points, const std::string& device, const std::string& size,
+           int frames, Console& console) {
   if (console.json) {
     Json json = Json::array();
-    for (const Point& point : points)
+    for (const ScalingPoint& point : points)
       json.push_back({{"proxies", point.count},
                       {"frame_ms", point.frame_ms},
                       {"light_ms", point.light_ms},
@@ -132,6 +92,40 @@ void print(const std::vector<Point>& points, const std::string& device, const st
 
 }  // namespace
 
+std::vector<ScalingPoint> measureScaling(Renderer& renderer, const RenderOptions& options, int frames,
+                                         Console& console) {
+  std::vector<ScalingPoint> points;
+  for (const int count : technique(options.technique).needs_emission ? kCountsBehindOthers : kCounts)
+    points.push_back({.count = count});
+  const Progress progress = console.progress();
+  const int each = std::max(1, (frames + kTurns - 1) / kTurns);
+  double done = 0.0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (ScalingPoint& point : points) {
+      const Crowd crowd = crowdOf(point.count);
+      renderer.setScene(crowd.scene);
+      giveSpheres(renderer, technique(options.technique), crowd.scene, crowd.spheres, "crowd", false,
+                  console);
+      const PosedScene posed = pose(crowd.scene, 0.0f);
+      for (int i = -1; i < each; ++i) {
+        if (interrupted()) throw Interrupted("interrupted: no figures");
+        progress.report(done++ / double(kTurns * int(points.size()) * (each + 1)),
+                        fmt::format("{} spheres", point.count));
+        const RenderedFrame frame = renderer.render(posed, posed.cameras.at(0), options);
+        double all = 0.0;
+        for (const PassTime& pass : frame.passes) all += pass.milliseconds;
+        if (i >= 0) point.timings.add(frame, all);
+      }
+    }
+  }
+  console.endProgress();
+  for (ScalingPoint& point : points) {
+    point.frame_ms = point.timings.medianPassesMs();
+    point.light_ms = point.timings.medianMs(options.technique + ".");
+  }
+  return points;
+}
+
 int benchScaling(const BenchChoice& choice, Console& console) {
   const TechniqueInfo& info = technique(choice.subject);
   if (!info.needs_spheres) throw Error("--scaling", fmt::format("{} takes no spheres", info.name));
@@ -144,7 +138,7 @@ int benchScaling(const BenchChoice& choice, Console& console) {
   options.timings = true;
   options.layers = false;
   console.release();
-  const std::vector<Point> points = measurePoints(renderer, options, choice.frames, console);
+  const std::vector<ScalingPoint> points = measureScaling(renderer, options, choice.frames, console);
   checkValidation(renderer);
   const std::string size = fmt::format("{}x{}", options.width, options.height);
   if (!choice.output.empty()) writePlot(plotOf(points, renderer.device().name, size), choice.output);
