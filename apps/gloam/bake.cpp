@@ -213,7 +213,7 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
       add("--directions", options.directions, {256, 65536}, "rays a vertex in the first pass");
   choice.bounce_directions_option =
       add("--bounce-directions", options.bounce_directions, {64, 65536}, "rays a vertex in each later pass")
-          ->default_str("1024, in rooms 512");
+          ->default_str("1024, in rooms 256");
   app.add_flag(
          "--apart", options.apart,
          "each root node is an object of its own, which shadows itself alone: objects may move against one "

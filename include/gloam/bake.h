@@ -28,8 +28,8 @@ struct BakeOptions {
   int order = 5;           ///< 3 to 6
   int bounces = 2;         ///< for kInterreflected, 1 to 64
   int directions = 10000;  ///< a vertex in the first pass, 256 to 65536; rounded up to whole tiles of 16
-  /// Of the same set, 64 to 65536; the even subset that is nearest in size is taken. 0: 1024, or 512 in rooms, where nearly
-  /// all of them meet something (unless matrices are baked): as many hits, and as small an error of all light.
+  /// Of the same set, 64 to 65536; the even subset that is nearest in size is taken. 0: 1024, or 256 in rooms, where nearly
+  /// all of them meet something (unless matrices are baked) and all light errs as little.
   int bounce_directions = 0;
   int threads = 0;                            ///< 0: all cores. The result does not depend on it
   float time_s = 0.0f;                        ///< instant at which the scene is posed

@@ -48,11 +48,12 @@ void warnOfCrowdedEdges(const Scene& scene, const PosedScene& posed, Warnings& w
     const std::size_t crowded = crowdedEdges(mesh);
     if (crowded == 0) continue;
     edges += crowded;
-    if (++meshes == 1) first = mesh.name;
+    if (++meshes == 1)
+      first = mesh.name.empty() ? fmt::format("mesh {}", instance.mesh) : fmt::format("mesh '{}'", mesh.name);
   }
   if (edges == 0) return;
   warnings.push_back(
-      fmt::format("mesh '{}'{} is no manifold: {} edges have more than two triangles; baked as it stands, "
+      fmt::format("{}{} is no manifold: {} edges have more than two triangles; baked as it stands, "
                   "every vertex by its own normal, backs block",
                   first, meshes > 1 ? fmt::format(" (and {} more)", meshes - 1) : "", edges));
 }

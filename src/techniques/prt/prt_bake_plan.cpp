@@ -60,7 +60,7 @@ void checkOptions(const BakeOptions& options) {
 
 // Some rays from some points: in the open about half of the directions above a floor meet anything, in rooms nearly all.
 BakeOptions withBounceDirections(const Scene& scene, BakeOptions options) {
-  constexpr int kOpen = 1024, kRoom = 512, kRays = 64;
+  constexpr int kOpen = 1024, kRoom = 256, kRays = 64;
   constexpr std::size_t kPoints = 256, kMostTriangles = 4000000;
   constexpr double kRoomShare = 0.8;
   if (options.bounce_directions != 0) return options;

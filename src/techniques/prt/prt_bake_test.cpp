@@ -141,10 +141,10 @@ TEST(PrtBake, RoomsTakeFewerBounceDirections) {
   };
   Scene closed = sceneOf(room), open = sceneOf(gridMesh(1.0f, 4));
   addMesh(open, boxMesh(glm::vec3(0.2f), false));
-  EXPECT_EQ(taken(closed, 0), taken(closed, 512));
+  EXPECT_EQ(taken(closed, 0), taken(closed, 256));
   EXPECT_EQ(taken(closed, 0, GlossyMeshes::kAll), taken(closed, 1024));
   EXPECT_EQ(taken(open, 0), taken(open, 1024));
-  EXPECT_LT(taken(closed, 512), taken(closed, 1024));
+  EXPECT_LT(taken(closed, 256), taken(closed, 1024));
 }
 
 // A box that stands on a floor, its lower vertices exactly in the floor: they see the floor on one half, the sky on the

@@ -294,6 +294,8 @@ TEST(PrtNeighbourhood, SaysWhatItCannotDo) {
   options.memory_bytes = std::size_t(1) << 30;
   EXPECT_NE(errorOf(scene, options).find("64 x 64 x 64 points takes"), std::string::npos);
   EXPECT_GT(estimateNeighbourhood(scene, 0, options).memory_bytes, options.memory_bytes);
+  for (glm::vec3& p : scene.meshes[0].positions) p = {1, 2, 3};
+  EXPECT_NE(errorOf(scene, small()).find("lie in one point"), std::string::npos);
   scene.nodes[0].meshes.clear();
   scene.nodes[0].name = "empty";
   EXPECT_NE(errorOf(scene, small()).find("node 'empty'"), std::string::npos);

@@ -165,6 +165,9 @@ NeighbourhoodObject neighbourhoodObject(const Scene& scene, int node, float time
   }
   if (object.posed.instances.empty())
     throw Error(place, "there are no rigid triangles at or below it that could throw a shadow");
+  const glm::vec3 side = object.bounds_max - object.bounds_min;
+  if (!(std::max({side.x, side.y, side.z}) > 1e-18f))
+    throw Error(place, "all of its triangles lie in one point: there is no room for a grid");
   return object;
 }
 

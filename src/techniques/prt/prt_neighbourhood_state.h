@@ -25,9 +25,9 @@ inline constexpr std::size_t kCellSamples = 8;
 inline glm::vec3 cellSample(std::size_t sample) {
   return 0.5f + (glm::vec3(sample & 1, sample >> 1 & 1, sample >> 2) - 0.5f) / std::sqrt(3.0f);
 }
-/// All samples of a cell together take as many directions as a point.
+/// All samples of a cell together take as many directions as a point, but none so few that the grid would be fitted to their noise.
 inline int sampleDirections(const NeighbourhoodOptions& options) {
-  return std::max(256, options.directions / int(kCellSamples));
+  return std::min(options.directions, std::max(1024, options.directions / int(kCellSamples)));
 }
 
 struct NeighbourhoodState {
