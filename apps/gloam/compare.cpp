@@ -33,7 +33,7 @@ void addReferenceOptions(CLI::App& app, CompareChoice& choice) {
           "an .exr of `gloam reference --parts`, of the same scene, light and camera; traced by default")
       ->group("Reference");
   addCount(app, "--bounces", choice.bounces, {0, 64}, "surfaces between the light and the one that is seen",
-           "as the scene is baked, else 1");
+           "as many as the technique that has most");
   addCount(app, "--spp", choice.samples, {1, 1 << 24}, "paths a pixel; with --noise at most so many",
            "64; 65536 with --noise");
   const auto setNoise = [&choice](const std::string& text) {

@@ -58,6 +58,11 @@ void checkGivenReference(const ReferencePicture& given, const CompareChoice& cho
     console.remark(
         fmt::format("{} was traced by {}; this is {}", choice.reference, given.version, tracerVersion()));
   }
+  if (stage.in_scene.emitter_direct && given.layers.find("seen") == nullptr) {
+    console.remark(fmt::format(
+        "{} has no layer seen: lamps that are seen themselves count in measures, and make errors look small",
+        choice.reference));
+  }
   for (const Contender& contender : contenders) {
     imageOf(given.layers, both(coverageOf(contender), stage.in_scene), choice.reference);
   }

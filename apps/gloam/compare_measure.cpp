@@ -3,6 +3,7 @@
 #include "compare_measure.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -39,20 +40,44 @@ std::string bouncesText(int bounces) {
   return fmt::format("{} {}", bounces, bounces == 1 ? "bounce" : "bounces");
 }
 
-/// To how many bounces a technique is held: its own, where the reference tells them from further ones; else says so.
-int heldBounces(const Comparison& work, const Contender& contender, TechniqueResult& result) {
+/// To how many bounces a technique is held: its own, where the reference tells them from further ones; else says so. With none at
+/// all, to no indirect light.
+void holdBounces(const Comparison& work, const Contender& contender, TechniqueResult& result) {
+  if (!anyIndirect(coverageOf(contender))) return;
   const int own = bouncesOf(contender, work.stage.baked_bounces), there = work.stage.bounces;
-  if (own == there || !anyIndirect(result.covers)) return there;
+  result.bounces = there;
   if (own > there) {
     result.notes.push_back(fmt::format("its light has {}, the reference {}: what is more counts as error",
                                        bouncesText(own), there));
-    return there;
+  } else if (own < there && (own == 0 || tellsBounces(work.reference, result.covers, own))) {
+    result.bounces = own;
+  } else if (own < there) {
+    result.notes.push_back(
+        fmt::format("its light has {}, the reference {} in one sum: what is missing counts as error",
+                    bouncesText(own), there));
   }
-  if (tellsBounces(work.reference, result.covers, own)) return own;
-  result.notes.push_back(
-      fmt::format("its light has {}, the reference {} in one sum: what is missing counts as error",
-                  bouncesText(own), there));
-  return there;
+  if (result.bounces > 0) return;
+  result.covers = directOf(result.covers);
+  result.missing = without(work.stage.in_scene, result.covers);
+}
+
+using Held = std::pair<Coverage, int>;
+Held heldTo(const TechniqueResult& technique) {
+  return {technique.covers, technique.bounces};
+}
+
+/// Who is held to that light: a technique's name where all of its settings are, else their labels.
+std::string namesOf(const std::vector<TechniqueResult>& techniques, const Held& held) {
+  std::vector<std::string> names;
+  for (const TechniqueResult& technique : techniques) {
+    if (heldTo(technique) != held) continue;
+    const bool all = std::ranges::all_of(techniques, [&](const TechniqueResult& other) {
+      return other.name != technique.name || heldTo(other) == held;
+    });
+    const std::string& name = all ? technique.name : technique.label;
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -69,20 +94,20 @@ Progress stretch(const Progress& whole, double from, double to) {
 }
 
 void measureAll(Comparison& work, const Progress& progress) {
-  work.results.reference_relative_noise = relativeNoise(work.reference);
+  work.results.reference_relative_noise = relativeNoise(work.reference, work.stage.glowing);
   const double count = double(work.contenders.size());
   for (std::size_t i = 0; i < work.contenders.size(); ++i) {
     if (progress.stopRequested()) {
       throw Interrupted(fmt::format("interrupted; the pictures are in {}", work.folder.path().string()));
     }
     TechniqueResult& result = work.results.techniques[i];
-    result.bounces = heldBounces(work, work.contenders[i], result);
-    writeExr(lightForPart(work.reference, result.covers, result.bounces), result.reference_file);
+    holdBounces(work, work.contenders[i], result);
+    writeExr(lightForPart(work.reference, result.covers, result.bounces, work.stage.glowing),
+             result.reference_file);
     const LayeredImage ours = readExr(result.file), truth = readExr(result.reference_file);
     const Image mask = surfaceMask(truth, result.reference_file.string());
     if (std::ranges::none_of(mask.pixels, [](float value) { return value > 0.0f; }))
-      throw Error(work.reference.file.string(),
-                  "shows no surface: nothing to compare");
+      throw Error(work.reference.file.string(), "shows no surface: nothing to compare");
     PagePicture picture = lightPicture(ours, result.label);
     picture.technique = int(i);
     const auto measured = [&](const char* layer, double from, double to) {
@@ -102,17 +127,14 @@ void measureAll(Comparison& work, const Progress& progress) {
 
 void addReferencePictures(Comparison& work) {
   std::vector<PagePicture>& pictures = work.page.pictures;
-  std::vector<TechniqueResult>& techniques = work.results.techniques;
-  using Held = std::pair<Coverage, int>;
+  const std::vector<TechniqueResult>& techniques = work.results.techniques;
   std::vector<std::pair<Held, std::size_t>> known;
   for (std::size_t i = 0; i < techniques.size(); ++i) {
-    const Held part{techniques[i].covers, techniques[i].bounces};
-    auto found = std::ranges::find(known, part, &std::pair<Held, std::size_t>::first);
+    const Held held = heldTo(techniques[i]);
+    auto found = std::ranges::find(known, held, &std::pair<Held, std::size_t>::first);
     if (found == known.end()) {
-      found = known.insert(known.end(), {part, pictures.size()});
-      pictures.push_back(lightPicture(readExr(techniques[i].reference_file), techniques[i].name));
-    } else if (pictures[found->second].label.find(techniques[i].name) == std::string::npos) {
-      pictures[found->second].label += ", " + techniques[i].name;
+      found = known.insert(known.end(), {held, pictures.size()});
+      pictures.push_back(lightPicture(readExr(techniques[i].reference_file), namesOf(techniques, held)));
     }
     pictures[i].reference = int(found->second);
   }

@@ -55,11 +55,6 @@ bool glows(const Scene& scene, int index) {
   return !mesh.indices.empty() && brightest(scene.materials[std::size_t(mesh.material)].emission) > 0.0f;
 }
 
-bool emits(const Scene& scene, const PosedScene& posed) {
-  return std::ranges::any_of(posed.instances,
-                             [&](const Instance& instance) { return glows(scene, instance.mesh); });
-}
-
 /// All that moves does so by bones or morph targets, and something does.
 bool deformsAltogether(const Scene& scene, const PosedScene& posed) {
   bool any = false;
@@ -121,11 +116,18 @@ Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment&
   light.environment_direct = !environment.empty() && environment.intensity > 0.0f;
   light.local_direct = std::ranges::any_of(
       posed.lights, [](const PosedLight& lamp) { return brightest(lamp.light.intensity) > 0.0f; });
-  light.emitter_direct = emits(scene, posed);
+  const std::vector<bool> glowing = glowingInstances(scene, posed);
+  light.emitter_direct = std::ranges::find(glowing, true) != glowing.end();
   light.environment_indirect = light.environment_direct && bounces > 0;
   light.local_indirect = light.local_direct && bounces > 0;
   light.emitter_indirect = light.emitter_direct && bounces > 0;
   return light;
+}
+
+std::vector<bool> glowingInstances(const Scene& scene, const PosedScene& posed) {
+  std::vector<bool> glowing;
+  for (const Instance& instance : posed.instances) glowing.push_back(glows(scene, instance.mesh));
+  return glowing;
 }
 
 std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres) {
@@ -157,6 +159,12 @@ bool anyDirect(const Coverage& coverage) {
 bool anyIndirect(const Coverage& coverage) {
   return std::ranges::any_of(kCoverageMembers,
                              [&](const CoverageMember& m) { return !m.direct && coverage.*m.member; });
+}
+
+Coverage directOf(const Coverage& coverage) {
+  Coverage direct;
+  for (const CoverageMember& m : kCoverageMembers) direct.*m.member = m.direct && coverage.*m.member;
+  return direct;
 }
 
 bool lights(const Contender& contender, const Coverage& in_scene) {

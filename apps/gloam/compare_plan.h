@@ -35,6 +35,9 @@ std::vector<Contender> allContenders(const TechniqueChoice& common);
 /// The light that a scene has at all. Without bounces nothing is indirect.
 Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces);
 
+/// For each of PosedScene::instances, whether it shines itself.
+std::vector<bool> glowingInstances(const Scene& scene, const PosedScene& posed);
+
 /// Names of things that glow and have no spheres (flat ones): what lives by spheres has nothing of their light.
 std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres);
 
@@ -44,6 +47,7 @@ Coverage coverageOf(const Contender& contender);
 int bouncesOf(const Contender& contender, int baked);
 bool anyDirect(const Coverage& coverage);
 bool anyIndirect(const Coverage& coverage);
+Coverage directOf(const Coverage& coverage);
 
 bool lights(const Contender& contender, const Coverage& in_scene);
 /// Takes out those that nobody named and that cover none of the light, with a line; all stay where none would be left.

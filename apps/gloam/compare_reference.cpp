@@ -203,7 +203,8 @@ ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOpti
   return picture;
 }
 
-LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces) {
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces,
+                          const std::vector<bool>& glowing) {
   const LayeredImage all = imageOf(reference.layers, part, reference.file.string(), bounces);
   LayeredImage light;
   light.width = all.width, light.height = all.height;
@@ -217,12 +218,18 @@ LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& par
   }
   const Layer *objects = reference.layers.find("object"), *seen = reference.layers.find("seen");
   if (reference.background && objects != nullptr) light.layers.push_back(*objects);
-  // With a sky behind the scene, edges that it shows through have something in that layer too.
-  const bool shines =
-      !reference.background || textOf(reference.layers, "gloam.sources").find("emitter") != std::string::npos;
-  if (shines && seen != nullptr &&
-      std::ranges::any_of(seen->pixels, [](float value) { return value > 0.0f; }))
-    light.layers.push_back(*seen);
+  if (seen == nullptr || objects == nullptr) return light;
+  Layer shining = *seen;  // without the sky, which shows through edges
+  bool any = false;
+  for (std::size_t i = 0; i < objects->ids.size(); ++i) {
+    const std::size_t id = objects->ids[i];
+    const bool glows = id > 0 && id <= glowing.size() && glowing[id - 1];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!glows) shining.pixels[3 * i + c] = 0.0f;
+      any |= shining.pixels[3 * i + c] > 0.0f;
+    }
+  }
+  if (any) light.layers.push_back(std::move(shining));
   return light;
 }
 
@@ -251,10 +258,10 @@ std::optional<double> relativeNoise(const ReferencePicture& reference, const Cov
   return std::sqrt(*variance * 3.0 * double(mask.pixels.size()) / squares);
 }
 
-std::optional<double> relativeNoise(const ReferencePicture& reference) {
+std::optional<double> relativeNoise(const ReferencePicture& reference, const std::vector<bool>& glowing) {
   const std::string place = reference.file.string();
   const Coverage all = coverageOf(reference.layers, place);
-  const LayeredImage light = lightForPart(reference, all, -1);
+  const LayeredImage light = lightForPart(reference, all, -1, glowing);
   return relativeNoise(reference, all, -1, light.image("", kRgb, place), surfaceMask(light, place));
 }
 

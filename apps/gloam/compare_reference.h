@@ -46,9 +46,10 @@ ReferencePicture traceReference(const ReferenceScene& scene, const ReferenceOpti
                                 Console& console);
 
 /// Light alone (R G B A, direct, indirect), as halves, for one technique: `part` of what the reference holds, of paths with so many
-/// bounces. Alpha, or objects where the background is drawn, and "seen", where something shines, tell which pixels are measured
+/// bounces. Alpha, or objects where the background is drawn, and "seen" of instances that glow tell which pixels are measured
 /// (surfaceMask).
-LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces);
+LayeredImage lightForPart(const ReferencePicture& reference, const Coverage& part, int bounces,
+                          const std::vector<bool>& glowing);
 /// False where the file has that part only with the light of further bounces in one sum.
 bool tellsBounces(const ReferencePicture& reference, const Coverage& part, int bounces);
 
@@ -57,7 +58,7 @@ bool tellsBounces(const ReferencePicture& reference, const Coverage& part, int b
 std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part, int bounces,
                                     const Image& light, const Image& mask);
 /// The same of all light that the reference holds.
-std::optional<double> relativeNoise(const ReferencePicture& reference);
+std::optional<double> relativeNoise(const ReferencePicture& reference, const std::vector<bool>& glowing);
 
 /// "gloam 1.2.3, tracer 4": as ReferencePicture::version has it.
 std::string tracerVersion();

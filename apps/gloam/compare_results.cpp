@@ -146,7 +146,10 @@ std::vector<std::string> noteLines(const CompareResults& results) {
   std::vector<std::string> lines;
   for (const TechniqueResult& result : results.techniques) {
     for (const std::string& note : result.notes) {
-      const std::string line = fmt::format("{}: {}", result.name, note);
+      const bool of_all = std::ranges::all_of(results.techniques, [&](const TechniqueResult& other) {
+        return other.name != result.name || std::ranges::find(other.notes, note) != other.notes.end();
+      });
+      const std::string line = fmt::format("{}: {}", of_all ? result.name : result.label, note);
       if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
     }
   }
@@ -156,7 +159,7 @@ std::vector<std::string> noteLines(const CompareResults& results) {
 std::string bouncesRemark(const CompareResults& results) {
   std::vector<std::string> said;
   for (const TechniqueResult& result : results.techniques) {
-    if (result.bounces < results.bounces)
+    if (result.bounces > 0 && result.bounces < results.bounces)
       said.push_back(fmt::format("{} to {}", result.label, result.bounces));
   }
   if (said.empty()) return "";

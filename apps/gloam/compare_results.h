@@ -29,7 +29,7 @@ struct TechniqueResult {
   std::optional<double> bake_seconds;
   std::string bake_note;     ///< where the time of a bake is not known: why
   Coverage covers, missing;  ///< of the light that the scene has
-  int bounces = 0;           ///< of the light that it is held to
+  int bounces = 0;           ///< of the indirect light that it is held to; 0: none
   /// The relative error that chance in what it is held to makes by itself; nothing where that is not known.
   std::optional<double> reference_noise;
   Warnings notes;
@@ -55,7 +55,7 @@ std::string resultsCsv(const CompareResults& results);
 std::string noiseRemark(const CompareResults& results);
 /// Who is held to fewer bounces than were traced, in one line; empty where nobody is.
 std::string bouncesRemark(const CompareResults& results);
-/// What techniques said of their pictures, a line each; what a technique said several times, once.
+/// What techniques said of their pictures, a line each; what one said with all of its settings, once.
 std::vector<std::string> noteLines(const CompareResults& results);
 /// A table for people.
 std::vector<std::string> resultsTable(const CompareResults& results);

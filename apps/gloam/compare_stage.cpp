@@ -29,8 +29,10 @@ int bakedBounces(const Scene& scene) {
 
 int chooseBounces(const CompareChoice& choice, const Scene& scene, const std::vector<Contender>& contenders) {
   if (choice.bounces) return *choice.bounces;
-  if (!anyNeedsBake(contenders)) return 1;
-  return carriesTransfer(scene) ? bakedBounces(scene) : BakeOptions{}.bounces;
+  const int baked = carriesTransfer(scene) ? bakedBounces(scene) : BakeOptions{}.bounces;
+  int most = 0;
+  for (const Contender& contender : contenders) most = std::max(most, bouncesOf(contender, baked));
+  return most;
 }
 
 }  // namespace
@@ -49,6 +51,7 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
   stage.camera = chooseCamera(stage.posed, choice.view, console);
   leaveOutUnbakeable(contenders, stage.scene, stage.posed, console);
   stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage.scene, contenders));
+  stage.glowing = glowingInstances(stage.scene, stage.posed);
   stage.in_scene = lightIn(stage.scene, stage.posed, stage.environment, stage.bounces);
   leaveOutDark(contenders, stage.in_scene, console);
   for (const Contender& contender : contenders) requireLight(contender, stage.in_scene);

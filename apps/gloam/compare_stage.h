@@ -23,7 +23,8 @@ struct CompareStage {
   PosedCamera camera;
   int bounces = 1;  ///< of the reference
   int baked_bounces = 0;
-  Coverage in_scene;  ///< the light that there is, at so many bounces
+  std::vector<bool> glowing;  ///< of posed.instances
+  Coverage in_scene;          ///< the light that there is, at so many bounces
   const Scene& sceneFor(const Contender& contender) const {
     return contender.technique->needs_bake && baked ? *baked : scene;
   }

@@ -64,13 +64,13 @@ class PathTracer {
   double noise() const;
   const ReferenceReport& report() const;
 
-  /// Layers as a render's (docs/images.md: R, G, B, A, direct, indirect, normal, depth, albedo, object), and "variance" (R,
-  /// G, B: of the mean that a pixel holds). Light is stored as floats. Attributes say what is in it (docs/accuracy.md).
+  /// Layers as a render's (docs/images.md: R, G, B, A, direct, indirect, normal, depth, albedo, object), "variance" (R,
+  /// G, B: of the mean that a pixel holds) and "seen" (emission and background). Light is stored as floats. Attributes say what is in it (docs/accuracy.md).
   LayeredImage image() const;
   /// The same picture of a part of the light: any subset of ReferenceOptions::light. Its variance is left out.
   LayeredImage image(const Coverage& part) const;
   /// Adds to image() one layer a source and path that has light: "environment_direct", … "emitter_indirect" (of one bounce;
-  /// "…_2" and "…_3": of two and three, "…_4": of four and more), and "seen" (emission and background): what `imageOf` needs.
+  /// "…_2" and "…_3": of two and three, "…_4": of four and more): what `imageOf` needs.
   LayeredImage imageWithParts() const;
 
   /// Writes and reads all that refine() has summed up. Reading throws Error where the file is of another scene, camera or

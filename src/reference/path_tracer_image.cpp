@@ -54,7 +54,9 @@ std::map<std::string, std::string> attributesOf(const TracerState& state, const 
   const ReferenceOptions& options = state.options;
   std::string sources;
   for (const LightPath path : state.sums.paths) {
-    if (path < kSeen && covers(part, path)) sources += (sources.empty() ? "" : " ") + nameOf(path);
+    if (path >= kSeen || !covers(part, path)) continue;
+    if (!sources.empty()) sources += ' ';
+    sources += nameOf(path);
   }
   return {{"gloam.kind", "reference"},
           {"gloam.version", GLOAM_VERSION},
@@ -78,7 +80,8 @@ std::string varianceText(const PathSums& sums) {
   const std::vector<std::vector<double>> covariances = partCovariances(sums);
   std::string text;
   for (std::size_t a = 0; a < covariances.size(); ++a) {
-    text += (a == 0 ? "" : " ") + nameOf(sums.paths[a]);
+    if (a > 0) text += ' ';
+    text += nameOf(sums.paths[a]);
     for (std::size_t b = 0; b <= a; ++b) text += fmt::format(" {:.6g}", covariances[a][b]);
   }
   return text;
@@ -105,8 +108,9 @@ LayeredImage pictureOf(const TracerState& state, const Coverage& part, bool vari
   }
   for (const Layer& layer : state.geometry.layers) result.layers.push_back(layer);
   if (variance) result.add("variance", rgb, varianceImage(sums), ChannelType::kFloat);
-  for (int p = 0; parts && p < kLightPathCount; ++p) {
+  for (int p = 0; p < kLightPathCount; ++p) {
     const LightPath path{p};
+    if (!parts && (path != kSeen || !variance)) continue;
     const bool there = path == kSeen || std::ranges::find(sums.paths, path) != sums.paths.end();
     if (!there || !covers(part, path)) continue;
     const auto takes = [&](LightPath other) { return other == path; };

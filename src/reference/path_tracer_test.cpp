@@ -347,7 +347,7 @@ TEST(PathTracer, LayersAreThoseOfARender) {
   std::vector<std::string> names;
   for (const Layer& layer : image.layers) names.push_back(layer.name);
   EXPECT_EQ(names, (std::vector<std::string>{"", "direct", "indirect", "normal", "depth", "albedo", "object",
-                                             "variance"}));
+                                             "variance", "seen"}));
   const Image sum = image.image("", {"R", "G", "B", "A"}, ""),
               direct = image.image("direct", {"R", "G", "B"}, ""),
               indirect = image.image("indirect", {"R", "G", "B"}, "");

@@ -82,17 +82,35 @@ std::optional<int> bouncesIn(const LayeredImage& file) {
   return bounces;
 }
 
+bool hasParts(const LayeredImage& file) {
+  return std::ranges::any_of(kCoverageMembers,
+                             [&](const CoverageMember& m) { return file.find(m.name) != nullptr; });
+}
+
+/// From how many bounces on light is one sum in a file with parts: of all where an earlier revision traced it.
+int bouncesApart(const LayeredImage& file, const Coverage& there, int bounces) {
+  if (bounces < 2 || !hasParts(file)) return kBouncesApart;
+  for (const LightPath direct : {kEnvironmentDirect, kLocalDirect, kEmitterDirect}) {
+    if (covers(there, pathAfter(direct, 1)) && file.find(nameOf(pathAfter(direct, 2)))) return kBouncesApart;
+  }
+  return 1;
+}
+
 /// What is asked of a file's light, and what it has.
 struct Asked {
   Coverage part, there;
   int bounces = kMaxBounces;        ///< at most
   int bounces_there = kMaxBounces;  ///< the same where the file does not say
+  int apart = kBouncesApart;        ///< light of so many bounces and more is one sum
   Asked(const LayeredImage& file, const Coverage& of, const Coverage& in_file, int most)
       : part(of), there(in_file) {
     if (most >= 0) bounces = most;
     bounces_there = bouncesIn(file).value_or(kMaxBounces);
+    apart = bouncesApart(file, there, bounces_there);
   }
-  bool has(LightPath path) const { return covers(there, path) && bouncesOf(path) <= bounces_there; }
+  bool has(LightPath path) const {
+    return covers(there, path) && bouncesOf(path) <= std::min(bounces_there, apart);
+  }
   bool takes(LightPath path) const { return covers(part, path) && bouncesOf(path) <= bounces; }
   bool all() const {
     for (int p = 0; p < kLightPathCount; ++p) {
@@ -100,8 +118,7 @@ struct Asked {
     }
     return !cutsASum();
   }
-  /// Light after many bounces is one sum.
-  bool cutsASum() const { return bounces >= kBouncesApart && bounces < bounces_there; }
+  bool cutsASum() const { return bounces >= apart && bounces < bounces_there; }
 };
 
 /// Direct or indirect light of a part: the file's own layer where it is all of that, 0 where it is nothing, else the sum of
@@ -118,14 +135,15 @@ Image lightOfPart(const LayeredImage& file, const Asked& asked, bool direct, con
   if (all) return file.image(direct ? "direct" : "indirect", rgb, place);
   Image sum(file.width, file.height, 3);
   if (nothing) return sum;
-  if (!file.find(nameOf(kSeen))) {
+  if (!hasParts(file)) {
     throw Error(place, fmt::format("holds {} in one sum; {} alone is in a file of gloam reference --parts",
                                    coverageText(asked.there), coverageText(both(asked.part, asked.there))));
   }
   if (!direct && asked.cutsASum()) {
     throw Error(
-        place, fmt::format("holds light of {} bounces and more in one sum; up to {} of its {} were asked for",
-                           kBouncesApart, asked.bounces, asked.bounces_there));
+        place,
+        fmt::format("holds light of {} bounces and more in one sum; that of at most {}, of {}, was asked for",
+                    asked.apart, asked.bounces, asked.bounces_there));
   }
   for (int p = 0; p < kLightPathCount; ++p) {
     const LightPath path{p};

@@ -137,6 +137,25 @@ TEST(ReferenceFile, LightOfFewerBouncesIsWhatARunOfSoManyGives) {
   EXPECT_EQ(imageOf(file, kAllLight, "", 9).find("indirect")->pixels, file.find("indirect")->pixels);
 }
 
+// As earlier revisions wrote them.
+TEST(ReferenceFile, PartsWhoseBouncesAreOneSumGiveThatSumAlone) {
+  Lit lit;
+  LayeredImage file = lit.render(kAllLight, true, 4);
+  const LayeredImage whole = imageOf(file, kParts[1], "");
+  Layer* sum = nullptr;
+  for (Layer& layer : file.layers) {
+    if (layer.name == "environment_indirect") sum = &layer;
+  }
+  ASSERT_NE(sum, nullptr);
+  for (std::size_t i = 0; i < sum->pixels.size(); ++i)
+    sum->pixels[i] += file.find("environment_indirect_2")->pixels[i];
+  std::erase_if(file.layers, [](const Layer& layer) { return layer.name.ends_with("_2"); });
+  EXPECT_NEAR(meanOf(imageOf(file, kParts[1], ""), ""), meanOf(whole, ""), 1e-5);
+  EXPECT_EQ(meanOf(imageOf(file, kAllLight, "", 0), "indirect"), 0.0);
+  const std::string error = errorOf([&] { imageOf(file, kAllLight, "old.exr", 1); });
+  EXPECT_NE(error.find("old.exr: holds light of 1 bounces and more in one sum"), std::string::npos) << error;
+}
+
 TEST(ReferenceFile, AFileWithoutPartsGivesWhatNeedsNone) {
   Lit lit;
   lit.scene.materials[0].emission = glm::vec3(0.0f);

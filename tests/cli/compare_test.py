@@ -260,6 +260,18 @@ class Lists(CliTest):
         answer = self.succeed(*given, "--reference", "sum.exr", "-o", "given")
         self.assertIn("proxies: its light has 1 bounce, the reference 2 in one sum: what is missing counts as error", answer.err)
 
+    def test_no_bounces_are_no_indirect_light(self):
+        view = ["--size", "24x16", "--spp", "2", "--frames", "1", "--env", "sky:mild"]
+        self.succeed("bake", BOX, "--kind", "ds", "--directions", "256", "-o", "ds.glb")
+        self.succeed("compare", "ds.glb", *view, "--techniques", "prt,proxies,proxies:indirect=off", "-o", "out")
+        results = json.loads(self.path("out/results.json").read_text(encoding="utf-8"))
+        self.assertEqual([results["bounces"], *(t["bounces"] for t in results["techniques"])], [1, 0, 1, 0])
+        for technique in results["techniques"][0], results["techniques"][2]:
+            self.assertIn("environment_indirect", technique["leaves_out"])
+            self.assertIsNone(technique["indirect"]["rmse"])
+        answer = self.succeed("compare", "ds.glb", *view, "--bounces", "0", "--techniques", "proxies", "-o", "none")
+        self.assertIn("proxies: its light has 1 bounce, the reference 0: what is more counts as error", answer.err)
+
     def test_what_shines_itself_is_not_measured(self):
         small = ["compare", "builtin:lanterns?detail=0.3", "--size", "48x32", "--spp", "4", "--frames", "1", "--techniques", "irradiance"]
         results = json.loads(self.succeed(*small, "--json", "-o", "out").out)

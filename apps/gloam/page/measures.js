@@ -84,7 +84,7 @@ function techniqueBody(index, best) {
   const toggle = make('button', {type: 'button', class: 'expander', 'aria-expanded': String(open.has(index)), 'aria-controls': `details-${index}`,
     onclick: () => { open.has(index) ? open.delete(index) : open.add(index); updateMeasures(); document.querySelector(`[data-technique="${index}"] .expander`).focus(); }}, technique.label);
   const missing = technique.leaves_out.length ? make('small', {}, `without ${lightWords(technique.leaves_out)}`) : null;
-  const fewer = technique.bounces < results.bounces ? make('small', {}, `without light of more than ${bouncesText(technique.bounces)}`) : null;
+  const fewer = technique.bounces > 0 && technique.bounces < results.bounces ? make('small', {}, `without light of more than ${bouncesText(technique.bounces)}`) : null;
   const row = make('tr', {}, make('th', {scope: 'row'}, toggle, missing, fewer, technique.notes.map((note) => make('small', {}, note))),
     columns.map(([key, heading, , value, text], c) => {
       const v = value(measuresOf(technique, state.layer), technique) ?? null;

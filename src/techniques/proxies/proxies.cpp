@@ -186,6 +186,12 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
   return received;
 }
 
+Coverage coverage(const Settings& settings) {
+  return {.environment_direct = true,
+          .environment_indirect = indirectKind(settings.choice("indirect")) != kIndirectOff,
+          .local_direct = true};
+}
+
 }  // namespace
 
 const TechniqueInfo& info() {
@@ -194,7 +200,8 @@ const TechniqueInfo& info() {
       .summary = "soft shadows and colour from moving things, by spheres in their place",
       .covers = {.environment_direct = true, .environment_indirect = true, .local_direct = true},
       .options = options(),
-      .needs_spheres = true};
+      .needs_spheres = true,
+      .covers_with = coverage};
   return info;
 }
 

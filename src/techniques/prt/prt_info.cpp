@@ -11,7 +11,10 @@ namespace {
 /// Local light sees emitters and what surfaces send to one another.
 Coverage coverageOf(const Settings& settings) {
   const Coverage distant{.environment_direct = true, .environment_indirect = true, .local_direct = true};
-  return settings.choice("local_light") == std::string("off") ? distant : kAllLight;
+  Coverage covers = settings.choice("local_light") == std::string("off") ? distant : kAllLight;
+  if (!settings.flag("indirect"))
+    covers.environment_indirect = covers.local_indirect = covers.emitter_indirect = false;
+  return covers;
 }
 
 }  // namespace

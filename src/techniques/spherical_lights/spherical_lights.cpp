@@ -111,6 +111,11 @@ std::vector<float> cellRows() {
   return rows;
 }
 
+Coverage coverage(const Settings& settings) {
+  const bool indirect = settings.flag("indirect");
+  return {true, indirect, true, indirect, true, indirect};
+}
+
 }  // namespace
 
 const TechniqueInfo& info() {
@@ -120,7 +125,8 @@ const TechniqueInfo& info() {
       .covers = kAllLight,
       .options = options(),
       .needs_spheres = true,
-      .needs_emission = true};
+      .needs_emission = true,
+      .covers_with = coverage};
   return info;
 }
 
