@@ -96,7 +96,8 @@ double relativeRmse(bool bounced) {
       for (std::uint32_t k = 0; k < kSamples; ++k) {
         const reference::PathLight paths =
             integrator.trace(point, 0, 0, std::uint32_t(2 * i) + replicate, k, rays);
-        found[replicate] += paths[reference::kEnvironmentDirect] + paths[reference::kEnvironmentIndirect];
+        for (int bounces = 0; bounces <= options.bounces; ++bounces)
+          found[replicate] += paths[std::size_t(pathAfter(reference::kEnvironmentDirect, bounces))];
       }
       found[replicate] *= float(std::numbers::pi / kSamples) / point.albedo;
     }
