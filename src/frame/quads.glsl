@@ -59,6 +59,28 @@ QuadSurface surfaceOf(ivec2 first, uint left) {
   return s;
 }
 
+/// Those of a square's pixels in `left`, the first of them among them, that one receiver at their mean place and normal stands for.
+/// What is visible depends on normals far less than light does, which is shaded at each: so small round things, on which no two
+/// pixels have one surface, are computed once a square.
+const float kSameReceiver = 0.8, kSamePlace = 0.25;  // of normals' cosine; of depth, as receiverFitness has it
+uint oneReceiver(ivec2 first, uint left) {
+  uint which = uint(findLSB(left)), mask = 1u << which;
+  ivec2 leader = pixelOf(first, which);
+  uvec2 packed = texelFetch(normals, leader, 0).xy;
+  vec3 leading = shadingNormal(packed);
+  PixelPlane plane = pixelPlane(frame_view.view, leader, eyeDepth(frame_view.view, texelFetch(depth, leader, 0).x),
+                                geometricNormal(packed));
+  for (uint i = which + 1u; i < 4u; ++i) {
+    ivec2 pixel = pixelOf(first, i);
+    if ((left >> i & 1u) == 0u) continue;
+    float along = evenDepth(frame_view.view, eyeDepth(frame_view.view, texelFetch(depth, pixel, 0).x));
+    bool turned = dot(leading, shadingNormal(texelFetch(normals, pixel, 0).xy)) < kSameReceiver;
+    float place = receiverFitness(vec4(leading, along), leading, plane, vec2(pixel - leader));
+    mask |= !turned && place > kSamePlace ? 1u << i : 0u;
+  }
+  return mask;
+}
+
 /// A surface rises from the pixel's own within a pixel of it, as where a wall stands on its ground: light changes there faster than
 /// receivers can tell. In pixels: from a slope of 0.3 on, up to where it is something in front.
 bool inCrease(ivec2 pixel, PixelPlane plane, ivec2 last) {

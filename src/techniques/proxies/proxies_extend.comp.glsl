@@ -46,6 +46,7 @@ void main() {
   if (entry >= min(misfits.list.count_and_one - 1u, push.capacity)) return;
   uint packed = misfits.at[entry], left = packed & 15u;
   ivec2 first = firstPixel(packed, push.divisor), last = textureSize(receiver_normal, 0) - 1;
+  uint unknown = 0u;
   while (left != 0u) {
     QuadSurface surface = surfaceOf(first, left);
     left &= ~surface.mask;
@@ -89,7 +90,7 @@ void main() {
     float value = whole_field ? f0.x : dot(f0 + f1 + f2, n) + peak * sent.a;
     float bent = sqrt(max(0.0, v2 - dot(v, slope.solve * v)) / max(s, 1e-12)) / max(abs(value), 1e-12);
     float known = trusted(s, offset, enlarged, whole_field ? kFieldChanges * bent : bent);
-    if (known < 0.99) toRepairs(packed & ~31u | surface.mask);
+    unknown |= known < 0.99 ? surface.mask : 0u;
     if (known <= 0.01) continue;
     for (uint i = 0u; i < 4u; ++i) {
       if ((surface.mask >> i & 1u) == 0u) continue;
@@ -104,5 +105,10 @@ void main() {
       imageStore(direct_full, pixel, vec4(mix(lit, before.rgb, share), kept));
       imageStore(indirect_full, pixel, vec4(mix(max(sent.rgb, vec3(0.0)), sent_before, share), 1.0));
     }
+  }
+  while (unknown != 0u) {
+    uint mask = oneReceiver(first, unknown);
+    unknown &= ~mask;
+    toRepairs(packed & ~31u | mask);
   }
 }
