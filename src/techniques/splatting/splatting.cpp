@@ -54,8 +54,7 @@ const std::vector<Option>& options() {
        .default_value = std::string("off"),
        .choices = {"off", "rays"},
        .help = "whether what stands in the way hides virtual lights: rays on the host from every subsplat to "
-               "every light; in mode "
-               "multiresolution"},
+               "every light; not in mode cutoff"},
       {.name = "normal_threshold",
        .default_value = 0.1f,
        .minimum = 0.0,
@@ -195,16 +194,26 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
   }
   tellLamps(inputs);
   const int bound = boundKind(settings.choice("bound"));
+  const std::string& mode = settings.choice("mode");
+  const bool shadowed = settings.choice("visibility") == "rays";
+  // Rays are asked for by the list of subsplats: with them, every pixel is one.
+  const bool all_pixels = mode == "full" && shadowed;
   const Plan plan = planLevels(inputs.gbuffer.width, inputs.gbuffer.height, settings.integer("coarsest"),
-                               settings.integer("resolution"));
-  const std::string& visibility = settings.choice("visibility");
+                               all_pixels ? 0 : settings.integer("resolution"));
+  if (shadowed && (mode == "cutoff" || plan.coarsest == 0))
+    inputs.warnings.push_back(
+        mode == "cutoff" ? "indirect light is not shadowed: mode cutoff asks for no rays"
+                         : "indirect light is not shadowed: rays begin at subsplats, and the picture "
+                           "is smaller than two of splatting.coarsest");
   gpu::ImageRef irradiance;
-  if (settings.choice("mode") == "cutoff") {
+  if (mode == "cutoff") {
     irradiance = recordCutoff(graph, inputs, vpls, bound, settings.number("radius"));
-  } else if (settings.choice("mode") == "full" || plan.coarsest == 0) {
+  } else if ((mode == "full" && !shadowed) || plan.coarsest == 0) {
     irradiance = recordFull(graph, inputs, vpls, bound);
   } else {
-    const Thresholds thresholds{settings.number("normal_threshold"), settings.number("depth_threshold")};
+    const Thresholds thresholds =
+        all_pixels ? Thresholds{}
+                   : Thresholds{settings.number("normal_threshold"), settings.number("depth_threshold")};
     const std::string& upsample = settings.choice("upsample");
     const Upsampling upsampling = upsample == "surfaces" ? Upsampling::kSurfaces
                                   : upsample == "paper"  ? Upsampling::kPaper
@@ -218,7 +227,7 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
     const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, lights);
     const GatherOptions gathering{.paints_levels = upsample == "levels",
                                   .keeps_pixels = debug || (upsample != "surfaces" && upsample != "paper"),
-                                  .rays = visibility == "rays" ? &rays_ : nullptr,
+                                  .world = shadowed ? &world_ : nullptr,
                                   .bound_kind = bound,
                                   .light_threshold = settings.number("light_threshold"),
                                   .cluster_threshold = settings.number("cluster_threshold")};

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "techniques/technique.h"
-#include "visibility/host_rays.h"
+#include "visibility/host_world.h"
 
 namespace gloam::splatting {
 
@@ -19,7 +19,7 @@ class Splatting : public Technique {
                          const Settings& settings) override;
 
  private:
-  visibility::HostRays rays_;
+  visibility::HostWorld world_;
 };
 
 }  // namespace gloam::splatting

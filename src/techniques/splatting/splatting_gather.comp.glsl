@@ -17,7 +17,7 @@ layout(scalar, set = 0, binding = 1) readonly buffer CountsBlock { Counts value;
 layout(scalar, set = 0, binding = 2) readonly buffer Subsplats { Subsplat at[]; } subsplats;
 layout(scalar, set = 0, binding = 3) readonly buffer List { uint at[]; } list;
 layout(scalar, set = 0, binding = 4) buffer Light { vec4 at[]; } light;  // A: what merging may have changed
-layout(scalar, set = 0, binding = 5) readonly buffer Visible { uvec2 at[]; } visible;  // a bit a light, by place in the list (MS-8)
+layout(scalar, set = 0, binding = 5) readonly buffer Visible { uint at[]; } visible;  // a bit a light: first words by place in the list, then second ones (MS-8)
 layout(scalar, push_constant) uniform Push { int set; } push;
 
 void main() {
@@ -37,9 +37,8 @@ void main() {
     at.normal_y[i] = unpackSnorm2x16(point.normal.x).y;
     at.normal_z[i] = unpackSnorm2x16(point.normal.y).x;
     if (shadowed) {
-      uvec2 bits = visible.at[entry];
-      low[i] = bits.x;
-      high[i] = bits.y;
+      low[i] = visible.at[entry];
+      high[i] = visible.at[count + entry];
     }
     if (!first) {
       vec4 before = light.at[subsplat];

@@ -51,7 +51,7 @@ void recordCoarse(const Step& step, int k, std::size_t next, gpu::BufferRef list
   const Level &finer = step.levels[std::size_t(splits ? k - 1 : k)],
               &means = step.levels[std::size_t(std::max(k, 1))];
   step.makeArguments(1, k, {});
-  const bool shadowed = step.options.rays != nullptr;
+  const bool shadowed = step.options.world != nullptr;
   auto& pass = step.graph.compute("splatting.coarse", splatting_coarse_spv)
                    .specialize("at_pixel", !splits)
                    .specialize("children_are_pixels", k == 1)
@@ -78,7 +78,7 @@ void recordCoarse(const Step& step, int k, std::size_t next, gpu::BufferRef list
 /// All chunks of set s at the subsplats in `list`.
 void recordSet(const Step& step, std::size_t s, gpu::BufferRef list) {
   const LightSet& set = step.lights.sets[s];
-  const bool shadowed = step.options.rays != nullptr;
+  const bool shadowed = step.options.world != nullptr;
   step.makeArguments(2, int(s), set);
   gpu::BufferRef visible = step.graph.findBuffer("splatting.nothing");
   if (shadowed)
@@ -86,7 +86,7 @@ void recordSet(const Step& step, std::size_t s, gpu::BufferRef list) {
   const auto places = std::make_shared<TracedPlaces>();
   for (int i = 0; i < set.chunks(); ++i) {
     if (shadowed)
-      recordVisibility(step.graph, step.inputs, step.subsplats, step.lights, *step.options.rays,
+      recordVisibility(step.graph, step.inputs, step.subsplats, step.lights, *step.options.world,
                        {i, list, visible}, places);
     auto& pass = step.graph.compute("splatting.gather", splatting_gather_spv);
     (i == 0 ? pass.write("light", step.subsplats.light) : pass.readWrite("light", step.subsplats.light))
@@ -145,7 +145,7 @@ void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, cons
   const Step step{graph, inputs, plan, levels, subsplats, lights, options};
   const std::size_t sets = lights.sets.size();
   // Shadows are looked for toward every light; merged ones would stand beside what hides them.
-  std::size_t next = options.rays ? 0 : (sets > 1 ? sets - 2 : sets);
+  std::size_t next = options.world ? 0 : (sets > 1 ? sets - 2 : sets);
   gpu::BufferRef list = next < sets ? step.makeList(next) : graph.findBuffer("splatting.nothing");
   for (int k = plan.coarsest; k >= plan.finest; --k) recordCoarse(step, k, next, list);
   while (next < sets) {

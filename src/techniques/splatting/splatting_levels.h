@@ -7,7 +7,7 @@
 
 #include "frame/frame_inputs.h"
 #include "techniques/splatting/splatting_lights.h"
-#include "visibility/host_rays.h"
+#include "visibility/host_world.h"
 
 namespace gloam::splatting {
 
@@ -50,8 +50,8 @@ Subsplats recordRefinement(gpu::FrameGraph& graph, const frame::FrameInputs& inp
 struct GatherOptions {
   bool paints_levels = false;  ///< a colour a level in place of light, to look at
   bool keeps_pixels = false;   ///< level 0 has an image of its own, else its light comes by recordPixels
-  visibility::HostRays* rays = nullptr;  ///< MS-8: lights are hidden by what stands in the way
-  int bound_kind = 1;                    ///< splatting_light.glsl
+  visibility::HostWorld* world = nullptr;  ///< MS-8: lights are hidden by what stands in the way
+  int bound_kind = 1;                      ///< splatting_light.glsl
   float light_threshold =
       0.0f;  ///< MS-10: texels larger than this part of the mean distance of their light are split; 0: none
   float cluster_threshold = 0.0f;  ///< MS-9: what merging lights may change of their sum

@@ -182,6 +182,9 @@ TEST(Splatting, RaysTakeWhatIsHiddenAndNothingElse) {
   }
   EXPECT_GT(lost, 0.3 * whole);  // light that would come through walls
   EXPECT_LT(lost, 0.7 * whole);
+  const Picture full = draw(room, settings({{"visibility", "rays"}, {"mode", "full"}}), 64, 48);
+  EXPECT_LT(relativeError(seen, full), 0.03);
+  EXPECT_GT(relativeError(all, full), 0.3);
 }
 
 TEST(Splatting, DetailDarkensWhatIsTurnedAway) {

@@ -6,6 +6,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "visibility/host_sight.h"
+
 namespace gloam::splatting {
 
 namespace {
@@ -14,6 +16,7 @@ namespace {
 constexpr float kSag = 0.05f;
 /// A light of a cell lies below the surface that it stands for, too: parts of its radius.
 constexpr float kLightOffset = 0.1f;
+constexpr std::uint32_t kWords = vpls::kVplChunk / 32;
 
 struct Sources {
   gpu::BufferRef view, counts, points, list, rows, light_count;
@@ -38,34 +41,35 @@ void loadPlaces(const Sources& from, const gpu::HostAccess& access, TracedPlaces
   const auto points = access.download<Subsplat>(from.points.slice(0, counts.subsplats * sizeof(Subsplat)));
   const float pixel = std::max(glm::length(view.step_x), glm::length(view.step_y));
   const float least = 1e-5f * glm::distance(from.scene->boundsMin(), from.scene->boundsMax());
-  shared.places.reserve(listed);
+  shared.points.reserve(listed);
   for (const std::uint32_t i : list) {
     const Subsplat& point = points.at(i);
     const glm::vec3 normal(glm::unpackSnorm2x16(point.normal.x), glm::unpackSnorm2x16(point.normal.y).x);
     const int k = levelOf(counts, i);
     const float along = view.depth_range > 0.0f ? 1.0f : glm::dot(point.position - view.eye, view.forward);
     const float side = float(1 << k) * pixel * along, length = glm::length(normal);
-    shared.places.push_back({point.position, length > 0.0f ? normal / length : glm::vec3(0.0f),
-                             (k > 0 ? kSag * side : 0.0f) + least});
+    shared.points.push_back({point.position, (k > 0 ? kSag * side : 0.0f) + least,
+                             length > 0.0f ? normal / length : glm::vec3(0.0f), 0});
   }
 }
 
-std::vector<visibility::Place> lightsOf(std::span<const SplatLight> rows, float least) {
-  std::vector<visibility::Place> lights;
+std::vector<visibility::SightEnd> endsAt(std::span<const SplatLight> rows, float least) {
+  std::vector<visibility::SightEnd> ends;
   for (const SplatLight& row : rows)
-    lights.push_back({row.position, row.normal, kLightOffset * std::sqrt(row.bound) + least});
-  return lights;
+    ends.push_back(
+        {row.position, visibility::kSightSurface, row.normal, kLightOffset * std::sqrt(row.bound) + least});
+  return ends;
 }
 
 }  // namespace
 
 void recordVisibility(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Subsplats& subsplats,
-                      const LightSets& lights, visibility::HostRays& rays, const VisibilityChunk& chunk,
+                      const LightSets& lights, visibility::HostWorld& world, const VisibilityChunk& chunk,
                       std::shared_ptr<TracedPlaces> shared) {
   const Sources from{inputs.view, subsplats.counts, subsplats.points, chunk.list,
                      lights.rows, lights.count,     &inputs.scene};
   auto& pass = graph.host("splatting.visibility");
-  visibility::HostRays::reads(pass, inputs.scene);
+  visibility::HostWorld::reads(pass, inputs.scene);
   pass.read(from.view)
       .read(from.counts)
       .read(from.points)
@@ -73,16 +77,20 @@ void recordVisibility(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, 
       .read(from.rows)
       .read(from.light_count)
       .write(chunk.visible);
-  pass.run([from, chunk, shared, rows = lights.chunk(0, chunk.chunk), &rays](gpu::HostAccess& access) {
-    rays.update(access, *from.scene);
+  pass.run([from, chunk, shared, rows = lights.chunk(0, chunk.chunk), &world](gpu::HostAccess& access) {
+    world.update(access, *from.scene);
     if (!shared->loaded) loadPlaces(from, access, *shared);
-    if (shared->places.empty() || std::size_t(chunk.chunk) * vpls::kVplChunk >= shared->lights) return;
+    const std::span<const visibility::SightPoint> points = shared->points;
+    if (points.empty() || std::size_t(chunk.chunk) * vpls::kVplChunk >= shared->lights) return;
     const float least = 1e-5f * glm::distance(from.scene->boundsMin(), from.scene->boundsMax());
-    const auto ends = lightsOf(access.download<SplatLight>(rows), least);
-    std::vector<std::uint64_t> bits(shared->places.size());
-    rays.trace(shared->places, ends, bits);
-    access.upload(chunk.visible.slice(0, bits.size() * sizeof(std::uint64_t)),
-                  std::span<const std::uint64_t>(bits));
+    const auto ends = endsAt(access.download<SplatLight>(rows), least);
+    const visibility::LightRows lights_of_chunk{.first = std::as_bytes(std::span(ends)).data(),
+                                                .count = ends.size()};
+    const visibility::SightSet all{.first = 0, .count = std::uint32_t(ends.size())};
+    std::vector<std::uint32_t> bits(kWords * points.size());
+    visibility::traceSight(world.tracer(), points, lights_of_chunk, {&all, 1}, kWords, bits);
+    access.upload(chunk.visible.slice(0, bits.size() * sizeof(std::uint32_t)),
+                  std::span<const std::uint32_t>(bits));
   });
 }
 

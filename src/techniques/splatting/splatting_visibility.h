@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "techniques/splatting/splatting_levels.h"
+#include "visibility/visibility_shared.h"
 
 namespace gloam::splatting {
 
@@ -14,18 +15,19 @@ namespace gloam::splatting {
 struct TracedPlaces {
   bool loaded = false;
   std::size_t lights = 0;
-  std::vector<visibility::Place> places;  ///< as in the list
+  std::vector<visibility::SightPoint> points;  ///< as in the list
 };
 
 struct VisibilityChunk {
-  int chunk = 0;           ///< of all lights
-  gpu::BufferRef list;     ///< of subsplats that ask
-  gpu::BufferRef visible;  ///< a bit for each light of the chunk, eight bytes an entry of the list
+  int chunk = 0;        ///< of all lights
+  gpu::BufferRef list;  ///< of subsplats that ask
+  gpu::BufferRef
+      visible;  ///< a bit for each light of the chunk: a word an entry of the list, then their second words
 };
 
 /// Adds "splatting.visibility", which fills chunk.visible.
 void recordVisibility(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Subsplats& subsplats,
-                      const LightSets& lights, visibility::HostRays& rays, const VisibilityChunk& chunk,
+                      const LightSets& lights, visibility::HostWorld& world, const VisibilityChunk& chunk,
                       std::shared_ptr<TracedPlaces> shared);
 
 }  // namespace gloam::splatting
