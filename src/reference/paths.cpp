@@ -179,12 +179,12 @@ void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
   batch.depth = batch.count = 0;
   arrivals.clear();
   arrivals.shifted = textured;
+  std::fill(light.begin(), light.end(), PathLight{});
   LaneBits x, y;
   for (int i = 0; i < kLanes; ++i) lanes.place.at[i] = bits::reversedBits(first + std::uint32_t(i));
   if (textured) numbersOfLanes(batch.sampler.scramble(kPixelPair), lanes.place, x, y);
   bool sends = false;
   for (int i = 0; i < int(light.size()); ++i) {
-    PathLight& own = light[std::size_t(i)] = {};
     lanes.slot.at[i] = i;
     lanes.found.at[i] = std::numeric_limits<float>::infinity();
     lanes.throughput.set(i, glm::vec3(1.0f));
@@ -197,7 +197,9 @@ void Paths::begin(Batch& batch, const CameraPoint& point, std::uint32_t first,
       arrivals.shift_u.at[i] = shift.x;
       arrivals.shift_v.at[i] = shift.y;
     }
-    if (emits) own[kSeen] = surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
+    if (emits)
+      light[std::size_t(i)][kSeen] =
+          surfaces_.emission(point.instance, point.triangle, point.u, point.v, shift);
   }
   if (!sends) return;
   batch.count = int(light.size());

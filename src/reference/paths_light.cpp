@@ -39,9 +39,10 @@ void Paths::addSky(Batch& batch, const SkyPlaces& places, const LaneVectors& dir
   if (free == 0) return;
   LaneVectors radiance;
   environment_->radiance(places, directions, free, radiance);
+  const auto path = std::size_t(pathAfter(kEnvironmentDirect, batch.depth));
   for (std::uint32_t rest = free; rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
-    batch.add(i, kEnvironmentDirect, share.get(i) * radiance.get(i));
+    batch.light[std::size_t(batch.lanes.slot.at[i])][path] += share.get(i) * radiance.get(i);
   }
 }
 
