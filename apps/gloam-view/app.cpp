@@ -5,10 +5,11 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <fmt/core.h>
-#include <image/atomic_file.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "outline.h"
 
 namespace gloam::view {
 namespace {
@@ -39,6 +40,8 @@ App::App(const ViewerChoice& choice) : choice_(choice) {
   ImGui_ImplGlfw_InitForVulkan(window_, true);  // passes events on to what was there before
   openSurface();
   session_ = std::make_unique<Session>(choice, [] { glfwPostEmptyEvent(); });
+  if (!choice.screenshot.empty() && choice.scale <= 0.0f) session_->resolution.fixed = 1.0f;
+  if (choice.screenshot.ends_with(".exr")) session_->inspect(true);  // all layers
 }
 
 App::~App() {
@@ -175,9 +178,12 @@ bool App::update() {
     session_->update(0, 0);
     return false;
   }
+  if (drawsAlone()) ui_.panel = false;
   place_ = layOut(ui_, {float(window_width), float(window_height)});
   const float pixels = float(width) / float(window_width);
-  session_->update(int(std::lround(place_.size.x * pixels)), int(std::lround(place_.size.y * pixels)));
+  const bool alone = drawsAlone();
+  session_->update(alone ? choice_.view.size.x : int(std::lround(place_.size.x * pixels)),
+                   alone ? choice_.view.size.y : int(std::lround(place_.size.y * pixels)));
   const double since = glfwGetTime() - drawn_s_;
   if (uploaded_ != session_->pictureRevision() || (script_ && !script_->waits())) return true;
   const bool answered = input_s_ <= drawn_s_;
@@ -226,65 +232,28 @@ void App::drawFrame() {
   if (title != shown_title) glfwSetWindowTitle(window_, (shown_title = title).c_str());
 }
 
+/// What is selected has a line round it, in the window alone.
+static void upload(UiRenderer& ui, TextureSlot slot, const Drawn& drawn, const Picture& picture,
+                   const std::vector<bool>& chosen) {
+  const Layer* objects = chosen.empty() || !picture.layers ? nullptr : picture.layers->find("object");
+  if (objects == nullptr) return ui.setTexture(slot, drawn.width, drawn.height, picture.rgba.data());
+  std::vector<std::uint8_t> outlined = picture.rgba;
+  drawOutline(outlined, drawn.width, drawn.height, objects->ids, chosen);
+  ui.setTexture(slot, drawn.width, drawn.height, outlined.data());
+}
+
 void App::uploadPictures() {
   const Drawn* drawn = session_->drawn();
   if (drawn == nullptr || uploaded_ == session_->pictureRevision()) return;
   uploaded_ = session_->pictureRevision();
   UiRenderer& ui = surface_->ui();
-  ui.setTexture(TextureSlot::kLeft, drawn->width, drawn->height, drawn->left.rgba.data());
-  if (drawn->split) ui.setTexture(TextureSlot::kRight, drawn->width, drawn->height, drawn->right.rgba.data());
-  const ReferenceView* reference = session_->reference();
-  if (session_->state.split != Split::kReference || reference == nullptr || !reference->layers) return;
-  DisplayOptions display = session_->state.display;
-  display.auto_exposure = false;
-  const Image shown = toDisplay(*reference->layers, display);
-  ui.setTexture(TextureSlot::kRight, shown.width, shown.height, encodeSrgb8(shown).data());
-}
-
-/// --screenshot, --window-screenshot: after --frames pictures, when the last one stands.
-void App::runErrands() {
-  if (choice_.screenshot.empty() && choice_.window_screenshot.empty()) return;
-  if (!session_->idle()) return;
-  const int wanted = choice_.frames > 0 ? choice_.frames : 2;
-  if (session_->pictures() < wanted) return session_->changed();
-  if (!choice_.window_screenshot.empty() && !captureWindow(choice_.window_screenshot)) return;
-  if (!choice_.screenshot.empty()) {
-    const LayeredImage* right = session_->drawn()->split ? session_->drawn()->right.layers.get() : nullptr;
-    savePicture(choice_.screenshot, *session_->drawn(), right, session_->divider);
-  }
-  if (!script_) ui_.quit = true;
-  choice_.screenshot.clear();
-  choice_.window_screenshot.clear();
-}
-
-bool App::captureWindow(const std::string& path) {
-  if (!capture_asked_) {
-    surface_->requestCapture();
-    capture_asked_ = true;
-    return false;
-  }
-  surface_->wait();
-  const Image image = surface_->takeCapture();
-  if (image.empty()) return false;
-  capture_asked_ = false;
-  writePng(image, path);
-  return true;
-}
-
-void App::writeStats(const std::string& path) {
-  cli::Json stats = session_->stats(ui_.ui_device_ms, device_->liveObjects());
-  stats["picture_place"] = {place_.low.x, place_.low.y, place_.size.x, place_.size.y};
-  stats["panel"] = ui_.panel;
-  stats["controls"] = cli::Json::object();
-  for (const auto& [name, at] : ui_.controls)
-    stats["controls"][name] = {at.low.x, at.low.y, at.size.x, at.size.y};
-  stats["light_marks"] = cli::Json::array();
-  for (const LightMark& mark : lightMarks(*session_, place_))
-    stats["light_marks"].push_back({mark.at.x, mark.at.y});
-  const std::string text = cli::jsonText(stats) + "\n";
-  AtomicFile out(path);
-  out.write(text.data(), text.size());
-  out.commit();
+  const std::vector<bool> chosen = session_->chosenInstances();
+  upload(ui, TextureSlot::kLeft, *drawn, drawn->left, chosen);
+  if (drawn->split) upload(ui, TextureSlot::kRight, *drawn, drawn->right, chosen);
+  const Image reference = session_->referencePicture();
+  if (reference.empty()) return;
+  ui_.reference_bytes = rgbaOf(reference);
+  ui.setTexture(TextureSlot::kRight, reference.width, reference.height, ui_.reference_bytes.data());
 }
 
 }  // namespace gloam::view

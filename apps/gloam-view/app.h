@@ -27,6 +27,7 @@ class App {
 
   // For scripts.
   Session& session() { return *session_; }
+  bool inputTaken() const { return input_s_ <= drawn_s_; }  ///< by a frame of the window
   void moveMouse(const glm::vec2& at);
   void pressMouse(const std::string& button, bool down);
   void scroll(float steps);
@@ -36,6 +37,7 @@ class App {
   void minimise(bool minimised);
   bool captureWindow(const std::string& path);  ///< true when it is saved
   void writeStats(const std::string& path);
+  void writeClipboard(const std::string& path);
   void loseWindow() { lose_window_ = true; }  ///< as if the driver had lost the window's device
   void quit() { ui_.quit = true; }
 
@@ -62,6 +64,7 @@ class App {
   Place place_;
   std::uint64_t uploaded_ = 0;
   int recoveries_ = 0;
+  bool drawsAlone() const;
   bool letters_wanted_ = true, capture_asked_ = false, lose_window_ = false;
   double input_s_ = 0.0, last_frame_s_ = 0.0, drawn_s_ = 0.0;
   std::optional<glm::vec2> mouse_;  ///< of a script, in place of the real one

@@ -53,11 +53,13 @@ int buttonOf(const std::string& name) {
 
 void App::moveMouse(const glm::vec2& at) {
   mouse_ = at;
+  input_s_ = glfwGetTime();
 }
 
 void App::pressMouse(const std::string& button, bool down) {
   buttons_[buttonOf(button)] = down;
   if (!mouse_) mouse_ = glm::vec2(0.0f);
+  input_s_ = glfwGetTime();
 }
 
 void App::scroll(float steps) {

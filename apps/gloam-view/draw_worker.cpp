@@ -21,6 +21,8 @@ double msSince(Clock::time_point then) {
   return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
 }
 
+}  // namespace
+
 std::vector<std::uint8_t> rgbaOf(const Image& display) {
   const std::vector<std::uint8_t> bytes = encodeSrgb8(display);
   if (display.channels == 4) return bytes;
@@ -31,8 +33,6 @@ std::vector<std::uint8_t> rgbaOf(const Image& display) {
   }
   return rgba;
 }
-
-}  // namespace
 
 DrawWorker::DrawWorker(std::string device, std::function<void()> wake)
     : device_(std::move(device)), wake_(std::move(wake)), thread_([this] { run(); }) {}
@@ -123,7 +123,7 @@ std::shared_ptr<Drawn> DrawWorker::draw(const Request& request) {
     const Clock::time_point started = Clock::now();
     bring(state, *drawn);
     drawn->scene_ms = msSince(started);
-    const PosedScene posed = poseEdited(*state.scene, state.edits, state.time_s);
+    const PosedScene posed = cli::poseMoved(state.scene->scene, state.moves, state.time_s);
     drawn->instance_places = instancePlaces(*state.scene, posed);
     drawn->lights = posed.lights;
     drawPicture(state, state.left, posed, *drawn, drawn->left);
@@ -131,6 +131,7 @@ std::shared_ptr<Drawn> DrawWorker::draw(const Request& request) {
     if (state.split == Split::kTechnique) {
       drawPicture(state, state.right, posed, *drawn, drawn->right);
       drawn->split = true;
+      drawn->right_technique = state.right.info->name;
     }
     drawn->memory = renderer_->memory();
   } catch (const std::exception& error) {

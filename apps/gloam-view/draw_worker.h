@@ -35,7 +35,7 @@ struct Drawn {
   bool split = false;
   std::string show;
   std::string missing_show;  ///< asked for, but the technique makes no image of that name: its light is shown
-  std::string technique;
+  std::string technique, right_technique;  ///< the latter empty where the screen is not split
   PosedCamera camera;
   std::vector<glm::vec3> instance_places;  ///< middles of PosedScene::instances, for hands to grip
   std::vector<PosedLight> lights;
@@ -48,6 +48,9 @@ struct Drawn {
   DeviceInfo device;
   double scene_ms = 0.0;  ///< what it took to bring a new scene, light or spheres to the device
 };
+
+/// Of a display's picture (linear): 8 bits, four channels.
+std::vector<std::uint8_t> rgbaOf(const Image& display);
 
 class DrawWorker {
  public:

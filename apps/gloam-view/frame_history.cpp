@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace gloam::view {
@@ -12,26 +13,39 @@ void FrameHistory::clear() {
   samples_.clear();
   rows_.clear();
   of_.clear();
+  passes_ = cli::Json::array();
+  median_ms_ = p95_ms_ = 0.0;
+  counted_ = 0;
 }
 
-// The first picture of a size compiles shaders and makes images: it tells nothing of those that follow.
 void FrameHistory::add(const Drawn& drawn) {
-  const std::string of = fmt::format("{} {}x{} {}", drawn.technique, drawn.width, drawn.height, drawn.split);
-  if (of != of_ || std::exchange(provisional_, false)) {
-    provisional_ = of != of_;  // shown until there is another
-    clear();
-    of_ = of;
-  }
-  samples_.push_back({drawn.left.frame_ms, drawn.left.passes});
+  const std::string of = drawn.technique + " " + drawn.right_technique;
+  if (of != of_) clear();
+  of_ = of;
+  const std::string size = fmt::format("{}x{}", drawn.width, drawn.height);
+  const bool first = samples_.empty() || samples_.back().size != size;
+  std::vector<PassTime> passes = drawn.left.passes;
+  passes.insert(passes.end(), drawn.right.passes.begin(), drawn.right.passes.end());
+  samples_.push_back({size, first, drawn.left.frame_ms + drawn.right.frame_ms, std::move(passes)});
   if (samples_.size() > kKept) samples_.pop_front();
+  measure();
+}
+
+/// Of samples of the newest one's size; of those that came first only where there are no others.
+void FrameHistory::measure() {
+  const std::string& size = samples_.back().size;
+  const auto isOf = [&](const Sample& s) { return s.size == size; };
+  const bool others = std::ranges::any_of(samples_, [&](const Sample& s) { return isOf(s) && !s.first; });
   cli::Timings timings;
   std::vector<double> frame_ms;
   for (const Sample& sample : samples_) {
+    if (!isOf(sample) || (others && sample.first)) continue;
     RenderedFrame frame;
     frame.passes = sample.passes;
     timings.add(frame, sample.frame_ms);
     frame_ms.push_back(sample.frame_ms);
   }
+  counted_ = frame_ms.size();
   median_ms_ = cli::quantile(frame_ms, 0.5);
   p95_ms_ = cli::quantile(frame_ms, 0.95);
   passes_ = timings.passesJson();
@@ -52,7 +66,7 @@ cli::Json FrameHistory::json(const Drawn& drawn, const std::string& scene, doubl
           {"technique", drawn.technique},
           {"scene", scene},
           {"size", fmt::format("{}x{}", drawn.width, drawn.height)},
-          {"frames", samples_.size()},
+          {"frames", counted_},
           {"passes", passes_},
           {"frame_ms", median_ms_},
           {"frame_p95_ms", p95_ms_},

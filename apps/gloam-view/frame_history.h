@@ -1,7 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Times of the last pictures of one technique at one size: for the plot, the table of passes and the JSON.
+// Times of the last pictures of one technique: for the plot. Those of the newest one's size: for the table of passes and the
+// JSON.
 #pragma once
 
 #include <deque>
@@ -17,7 +18,7 @@ class FrameHistory {
 
   void add(const Drawn& drawn);
   void clear();
-  std::vector<float> frameMs() const;  ///< the oldest first
+  std::vector<float> frameMs() const;  ///< of whatever size, the oldest first
   struct Row {
     std::string name;
     double median_ms, p95_ms;
@@ -30,12 +31,16 @@ class FrameHistory {
 
  private:
   struct Sample {
+    std::string size;
+    bool first;  ///< after another size or technique: it makes images, or compiles shaders
     double frame_ms;
     std::vector<PassTime> passes;
   };
+  void measure();
+
   std::deque<Sample> samples_;
-  std::string of_;            ///< technique and size
-  bool provisional_ = false;  ///< the one sample is the first of its kind
+  std::string of_;           ///< techniques
+  std::size_t counted_ = 0;  ///< samples of the newest one's size
   std::vector<Row> rows_;
   double median_ms_ = 0.0, p95_ms_ = 0.0;
   cli::Json passes_ = cli::Json::array();

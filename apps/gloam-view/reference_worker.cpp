@@ -28,8 +28,21 @@ void ReferenceWorker::start(const ViewState& state, std::shared_ptr<const Drawn>
                             int bounces, int max_samples) {
   {
     const std::lock_guard lock(mutex_);
-    next_ = {state, std::move(drawn), light, bounces, max_samples};
+    next_ = {state, drawn->camera, drawn->width, drawn->height, light, bounces, max_samples};
+    compared_ = std::move(drawn);
+    published_.reset();
+    finished_.reset();
+    measure_again_ = false;
     stop_ = true;
+  }
+  changed_.notify_all();
+}
+
+void ReferenceWorker::compare(std::shared_ptr<const Drawn> drawn) {
+  {
+    const std::lock_guard lock(mutex_);
+    compared_ = std::move(drawn);
+    measure_again_ = true;
   }
   changed_.notify_all();
 }
@@ -37,6 +50,9 @@ void ReferenceWorker::start(const ViewState& state, std::shared_ptr<const Drawn>
 void ReferenceWorker::stop() {
   const std::lock_guard lock(mutex_);
   next_.reset();
+  finished_.reset();
+  published_.reset();
+  measure_again_ = false;
   stop_ = true;
 }
 
@@ -52,21 +68,23 @@ bool ReferenceWorker::superseded() const {
 void ReferenceWorker::run() {
   while (true) {
     std::optional<Request> request;
+    std::shared_ptr<const ReferenceView> again;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return quit_ || next_.has_value(); });
+      changed_.wait(lock, [this] { return quit_ || next_.has_value() || (measure_again_ && published_); });
       if (quit_) return;
       request = std::exchange(next_, std::nullopt);
-      stop_ = false;
+      if (request) stop_ = false;
+      if (!request) again = published_;
     }
     try {
-      trace(*request);
+      again ? publish(*again) : trace(*request);
     } catch (const Interrupted&) {
     } catch (const std::exception& error) {
-      auto view = std::make_shared<ReferenceView>();
-      view->serial = request->drawn->serial;
-      view->problem = error.what();
       const std::lock_guard lock(mutex_);
+      if (superseded()) continue;
+      auto view = std::make_shared<ReferenceView>();
+      view->problem = error.what();
       finished_ = std::move(view);
     }
     wake_();
@@ -76,16 +94,16 @@ void ReferenceWorker::run() {
 void ReferenceWorker::trace(const Request& request) {
   const ViewState& state = request.state;
   ReferenceOptions options;
-  options.width = request.drawn->width;
-  options.height = request.drawn->height;
+  options.width = request.width;
+  options.height = request.height;
   options.light = request.light;
   options.bounces = request.bounces;
   options.background = state.background;
   options.threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);  // one for the window
   Progress progress;
   progress.should_stop = [this] { return superseded(); };
-  const PosedScene posed = poseEdited(*state.scene, state.edits, state.time_s);
-  PathTracer tracer(state.scene->scene, posed, request.drawn->camera, paintedLight(state), options, progress);
+  const PosedScene posed = cli::poseMoved(state.scene->scene, state.moves, state.time_s);
+  PathTracer tracer(state.scene->scene, posed, request.camera, paintedLight(state), options, progress);
   const Clock::time_point started = Clock::now();
   Clock::time_point shown = started;
   while (tracer.samples() < request.max_samples) {
@@ -94,26 +112,34 @@ void ReferenceWorker::trace(const Request& request) {
     const bool first = tracer.samples() <= 2;
     const bool last = tracer.samples() >= request.max_samples;
     if (!first && !last && std::chrono::duration<double>(now - shown).count() < kPublishSeconds) continue;
-    publish(request, tracer, std::chrono::duration<double>(now - started).count());
+    ReferenceView view;
+    view.layers = std::make_shared<const LayeredImage>(tracer.image());
+    view.samples = tracer.samples();
+    view.noise = tracer.noise();
+    view.seconds = std::chrono::duration<double>(now - started).count();
+    publish(std::move(view));
     shown = Clock::now();
   }
 }
 
-void ReferenceWorker::publish(const Request& request, const PathTracer& tracer, double seconds) {
-  auto view = std::make_shared<ReferenceView>();
-  view->serial = request.drawn->serial;
-  view->samples = tracer.samples();
-  view->noise = tracer.noise();
-  view->seconds = seconds;
-  auto layers = std::make_shared<LayeredImage>(tracer.image());
-  if (request.drawn->left.layers) {
-    const Image ours = request.drawn->left.layers->image("", {"R", "G", "B"}, kPlace);
-    view->error = measure(ours, layers->image("", {"R", "G", "B"}, kPlace));
-  }
-  view->layers = std::move(layers);
+/// Measured against the picture that is the newest now.
+void ReferenceWorker::publish(ReferenceView view) {
+  std::shared_ptr<const Drawn> drawn;
   {
     const std::lock_guard lock(mutex_);
-    finished_ = std::move(view);
+    drawn = compared_;
+    measure_again_ = false;
+  }
+  view.error.reset();
+  if (drawn && drawn->left.layers && drawn->width == view.layers->width &&
+      drawn->height == view.layers->height) {
+    const Image ours = drawn->left.layers->image("", {"R", "G", "B"}, kPlace);
+    view.error = measure(ours, view.layers->image("", {"R", "G", "B"}, kPlace));
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (superseded()) return;
+    finished_ = published_ = std::make_shared<const ReferenceView>(std::move(view));
   }
   wake_();
 }

@@ -16,7 +16,6 @@
 namespace gloam::view {
 
 struct ReferenceView {
-  std::uint64_t serial = 0;  ///< of the state that it belongs to
   std::shared_ptr<const LayeredImage> layers;
   int samples = 0;
   double noise = 0.0, seconds = 0.0;
@@ -34,25 +33,31 @@ class ReferenceWorker {
   /// Begins anew: the same view as `drawn`, whose picture is measured against it. `light` says which light is followed.
   void start(const ViewState& state, std::shared_ptr<const Drawn> drawn, const Coverage& light, int bounces,
              int max_samples);
+  /// Measures another picture of the same view and size against the same samples, those that are there and those to come.
+  void compare(std::shared_ptr<const Drawn> drawn);
   void stop();
   std::shared_ptr<const ReferenceView> take();
 
  private:
   struct Request {
     ViewState state;
-    std::shared_ptr<const Drawn> drawn;
+    PosedCamera camera;
+    int width, height;
     Coverage light;
     int bounces, max_samples;
   };
   void run();
   void trace(const Request& request);
   bool superseded() const;
-  void publish(const Request& request, const PathTracer& tracer, double seconds);
+  void publish(ReferenceView view);
 
   std::function<void()> wake_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Request> next_;
+  std::shared_ptr<const Drawn> compared_;           ///< what is measured
+  std::shared_ptr<const ReferenceView> published_;  ///< last
+  bool measure_again_ = false;
   std::shared_ptr<const ReferenceView> finished_;
   std::atomic<bool> quit_ = false, stop_ = false;
   std::thread thread_;

@@ -20,9 +20,10 @@ class Resolution {
   float still_ms = 1500.0f;  ///< what one may take that stands still
 
   /// Of a picture that took that long: learns what a pixel of its kind (technique and what is shown) costs, apart for small
-  /// pictures, in which vertices take their share. A part of the time, kBaseMs, is no pixel's.
+  /// pictures, in which vertices take their share. A part of the time, kBaseMs, is no pixel's; of pictures so small that it is
+  /// all of it, nothing is learnt.
   void add(const std::string& kind, double pixels, float scale_drawn, double milliseconds) {
-    if (pixels < 1.0) return;
+    if (pixels < kFewPixels) return;
     const double cost = std::max(milliseconds - kBaseMs, 0.1) / pixels;
     const auto [known, fresh] = costs_.try_emplace(keyOf(kind, scale_drawn < kSmall), cost);
     if (!fresh) known->second = 0.5 * known->second + 0.5 * cost;
@@ -31,34 +32,49 @@ class Resolution {
   bool mayGrow(float scale_drawn, double milliseconds) const {
     return fixed <= 0.0f && scale_drawn < 0.97f && milliseconds < 0.4 * double(still_ms);
   }
+  /// The share after one that may grow: a step more at least, whatever was learnt before.
+  float grown(float share, float scale_drawn) const {
+    if (fixed > 0.0f) return fixed;
+    for (const float step : kSteps) {
+      if (step > scale_drawn * 1.03f) return std::max(share, step);
+    }
+    return 1.0f;
+  }
   void forget() { costs_.clear(); }
+  /// Tells how many pixels the window has. What was learnt in one of another order of size does not hold.
+  void fit(double window_pixels) {
+    const double ratio = window_pixels / std::max(learnt_in_, 1.0);
+    if (ratio > 0.25 && ratio < 4.0) return;
+    learnt_in_ = window_pixels;
+    forget();
+  }
   /// Share of a window of that many pixels; in steps, so that pictures do not change size all the time. `hurry`: the first picture
   /// after a switch, which is waited for.
   float scale(const std::string& kind, double window_pixels, bool moving, bool hurry = false) const {
     if (fixed > 0.0f) return fixed;
-    const auto known = costs_.find(keyOf(kind, moving));
-    if (known == costs_.end()) return moving ? 0.25f : 0.71f;
-    const double affordable = std::max(double(hurry    ? hurry_ms
-                                              : moving ? moving_ms
-                                                       : still_ms) -
-                                           kBaseMs,
-                                       5.0) /
-                              known->second;
-    const double share = std::sqrt(affordable / std::max(window_pixels, 1.0));
+    const double fewest = std::sqrt(kFewPixels / std::max(window_pixels, 1.0));
+    const double share = std::max(affordable(kind, window_pixels, moving, hurry), fewest);
     float best = kSteps[0];
     for (const float step : kSteps) {
-      if (step <= share * 1.05) best = step;
+      if (best < fewest || step <= share * 1.05) best = step;
     }
     return best;
   }
 
  private:
+  double affordable(const std::string& kind, double window_pixels, bool moving, bool hurry) const {
+    const auto known = costs_.find(keyOf(kind, moving));
+    if (known == costs_.end()) return moving ? 0.25 : 0.71;
+    const double patience_ms = double(hurry ? hurry_ms : moving ? moving_ms : still_ms);
+    return std::sqrt(std::max(patience_ms - kBaseMs, 5.0) / known->second / std::max(window_pixels, 1.0));
+  }
   static std::string keyOf(const std::string& kind, bool small) { return small ? kind + " small" : kind; }
 
-  static constexpr double kBaseMs = 8.0;
+  static constexpr double kBaseMs = 8.0, kFewPixels = 4096.0;
   static constexpr float kSmall = 0.55f;
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
   std::map<std::string, double> costs_;  ///< milliseconds a pixel
+  double learnt_in_ = 0.0;               ///< pixels of the window
 };
 
 }  // namespace gloam::view

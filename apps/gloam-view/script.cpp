@@ -41,6 +41,7 @@ const std::vector<std::string>& knownSteps() {
                                                   "load_preset",
                                                   "video",
                                                   "stats",
+                                                  "clipboard",
                                                   "repeat",
                                                   "lose_device",
                                                   "lose_window",
@@ -148,7 +149,9 @@ bool Script::done(App& app, const Step& step) {
   Session& session = app.session();
   const std::string& what = step.what;
   if (what == "wait") {
-    if (value == "idle") return session.idle() && ++waited_frames_ > 2;
+    if (value == "idle" && session.playing && session.drawn() != nullptr && !session.job().busy)
+      throw Error(step.place, "nothing stands still while the animation plays");
+    if (value == "idle") return app.inputTaken() && session.idle() && ++waited_frames_ > 2;
     if (value == "reference")
       return session.reference() != nullptr &&
              session.reference()->samples >= session.reference_choice.samples;
@@ -172,6 +175,7 @@ bool Script::done(App& app, const Step& step) {
   if (what == "save_preset") return session.savePreset(textOf(value, step.place)), true;
   if (what == "load_preset") return session.loadPreset(textOf(value, step.place)), true;
   if (what == "stats") return app.writeStats(textOf(value, step.place)), true;
+  if (what == "clipboard") return app.writeClipboard(textOf(value, step.place)), true;
   if (what == "lose_device") return session.loseDevice(), true;
   if (what == "lose_window") return app.loseWindow(), true;
   if (what == "video") {

@@ -1,26 +1,20 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What is asked for. session_prepare.cpp bakes and fits, session_update.cpp has what happens every frame, session_set.cpp
-// names and values.
+// What is asked for. session_files.cpp reads and saves, session_prepare.cpp bakes and fits, session_update.cpp has what happens
+// every frame, session_reference.cpp the path tracer's share of it, session_set.cpp names and values.
 #include "session.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "show.h"
+#include "outline.h"
 
 namespace gloam::view {
 namespace {
 
 constexpr std::size_t kKeptMessages = 60;
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
 
 }  // namespace
 
@@ -53,6 +47,7 @@ void Session::say(const std::string& text, bool problem) {
 void Session::changed() {
   ++serial_;
   growths_ = 0;
+  grown_from_ = 0.0f;
   last_change_s_ = now_s();
   if (response_serial_ == 0) {
     response_serial_ = serial_;
@@ -61,7 +56,7 @@ void Session::changed() {
 }
 
 bool Session::moving() const {
-  return playing || dragging || now_s() - last_change_s_ < 0.2;
+  return playing || dragging || now_s() - last_change_s_ < kStillSeconds;
 }
 
 /// All of a choice but scene and camera.
@@ -85,42 +80,55 @@ void Session::open(const std::string& name, bool ground) {
   ViewerChoice choice = choice_;
   choice.scene.name = name;
   choice.scene.ground = ground;
-  if (!first_) choice.view.camera.clear(), choice.view.eye.reset(), choice.view.target.reset();
+  if (!first_) {
+    choice.view.camera.clear(), choice.view.eye.reset(), choice.view.target.reset();
+    choice.view.time_s = 0.0f;
+    choice.moves.clear();
+    choice.light.environment = environment_name;
+  }
+  openChoice(choice, {});
+}
+
+/// Reads scene and light. `then` runs when they are shown.
+void Session::openChoice(const ViewerChoice& choice, std::function<void()> then) {
   const bool first = first_;
   cli::LightChoice light = choice.light;
   light.rotation_deg = 0.0f;  // turned later, as often as wanted
   light.intensity = 1.0f;
-  if (!first) light.environment = environment_name;
-  const float time_s = first ? choice.view.time_s : 0.0f;
-  const auto work = [this, choice, light, time_s](JobConsole& console) -> Jobs::Finish {
+  const auto work = [this, choice, light, then](JobConsole& console) -> Jobs::Finish {
     Scene scene = cli::loadSceneToDraw(choice.scene, console);
     auto base =
         std::make_shared<const DistantLight>(mapLight(cli::chooseBaseEnvironment(scene, light, console)));
-    const PosedScene posed = pose(scene, time_s);
+    const PosedScene posed = pose(scene, choice.view.time_s);
     const PosedCamera posed_camera = cli::chooseCamera(posed, choice.view, console);
+    const cli::NodeMoves moves = cli::movesIn(scene, choice.moves);
     auto loaded = makeLoadedScene(choice.scene.name, choice.scene.ground, std::move(scene));
-    return [this, loaded, base, posed, posed_camera, time_s, choice, light] {
-      state.time_s = time_s;
+    return [this, loaded, base, posed, posed_camera, moves, choice, then] {
       camera.set(posed_camera, posed);
       if (choice.view.eye && choice.view.target) camera.setTarget(*choice.view.eye, *choice.view.target);
-      environment_name = light.environment;
-      adopt(loaded, base, posed_camera);
+      environment_name = choice.light.environment;
+      state.time_s = choice.view.time_s;
+      adopt(loaded, base);
+      state.moves = moves;
+      if (then) then();
+      prepare();
+      changed();
     };
   };
+  const std::string name = choice.scene.name;
   jobs_.start(fmt::format("Opening {}", name), work, [this, name, first](const std::string& problem) {
     if (first && !state.scene) fatal = problem.empty() ? fmt::format("{}: not opened", name) : problem;
     say(problem, true);
   });
 }
 
-void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base,
-                    const PosedCamera&) {
+void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base) {
   const bool first = std::exchange(first_, false);
   state.scene = std::move(scene);
   state.base = std::move(base);
   state.needs = {};
-  state.edits.clear();
-  selected_node = kNone;
+  state.moves.clear();
+  choose(kNone);
   playing = false;
   duration_s_ = state.scene->scene.duration_s();
   scene_name = state.scene->name;
@@ -130,8 +138,6 @@ void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<co
     const TechniqueInfo& info = cli::chooseTechnique(choice_.technique, state.scene->scene);
     wanted[kLeft] = {&info, cli::settingsFor(info, choice_.technique)};
   }
-  prepare();
-  changed();
 }
 
 void Session::openEnvironment(const std::string& name) {
@@ -149,47 +155,6 @@ void Session::openEnvironment(const std::string& name) {
   };
   jobs_.start(fmt::format("Reading {}", name.empty() ? "the scene's light" : name), work,
               [this](const std::string& problem) { say(problem, true); });
-}
-
-void Session::openDropped(const std::string& path) {
-  const std::string extension = lowerExtension(path);
-  if (extension == ".json") {
-    loadPreset(path);
-  } else if (extension == ".hdr" || extension == ".exr") {
-    openEnvironment(path);
-  } else {
-    open(path);
-  }
-}
-
-void Session::loadPreset(const std::string& path) {
-  try {
-    ViewerChoice preset = readPreset(path);
-    if (preset.technique.name.empty()) preset.technique.name = wanted[kLeft].info->name;
-    adoptChoice(preset);
-    if (preset.view.eye && preset.view.target) camera.setTarget(*preset.view.eye, *preset.view.target);
-    if (preset.view.fov_deg) camera.setFov(glm::radians(*preset.view.fov_deg));
-    state.time_s = preset.view.time_s;
-    if (preset.light.environment != environment_name) openEnvironment(preset.light.environment);
-    say(fmt::format("preset {}", std::filesystem::path(path).filename().string()));
-    prepare();
-    changed();
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
-}
-
-void Session::savePreset(const std::string& path) {
-  try {
-    ViewState whole = state;
-    whole.width = width_;
-    whole.height = height_;
-    whole.left = wanted[kLeft];
-    writePreset(path, whole, camera, environment_name, light_texts);
-    say(fmt::format("saved {}", path));
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
 }
 
 void Session::pick(Side side, const std::string& name) {
@@ -216,9 +181,7 @@ void Session::setSplit(Split split) {
     wanted[kRight] = pickOf(techniques()[same ? 1 : 0]);
   }
   state.split = split;
-  reference_.reset();
-  traced_serial_ = 0;
-  tracer_.stop();
+  dropReference();
   prepare();
   changed();
 }
@@ -242,49 +205,43 @@ void Session::play(bool play) {
 
 void Session::frameScene() {
   if (!state.scene) return;
-  const PosedScene posed = poseEdited(*state.scene, state.edits, state.time_s);
+  const PosedScene posed = cli::poseMoved(state.scene->scene, state.moves, state.time_s);
   camera.frame(posed.bounds_min, posed.bounds_max, aspect());
   changed();
 }
 
-void Session::resetEdits() {
-  state.edits.clear();
+void Session::resetMoves() {
+  state.moves.clear();
   changed();
 }
 
 void Session::clickAt(const glm::vec2& place) {
   click_ = place;
-  state.layers = true;
   changed();
 }
 
-void Session::saveScreenshot(const std::string& path) {
-  try {
-    if (!drawn_) throw Error(path, "nothing is drawn yet");
-    const LayeredImage* right = drawn_->split                                    ? drawn_->right.layers.get()
-                                : reference_ && state.split == Split::kReference ? reference_->layers.get()
-                                                                                 : nullptr;
-    savePicture(path, *drawn_, right, divider);
-    say(fmt::format("saved {}", path));
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
+void Session::choose(int node) {
+  if (selected_node_ == node) return;
+  selected_node_ = node;
+  ++picture_revision_;
+  const bool seen = drawn_ && drawn_->left.layers && drawn_->left.layers->find("object") != nullptr;
+  if (!seen && wantsLayers()) changed();
 }
 
-void Session::startVideo(const std::string& path) {
-  video_ = std::make_unique<VideoCapture>(path);
+void Session::inspect(bool inspects) {
+  inspects_ = inspects;
   changed();
 }
 
-void Session::stopVideo() {
-  if (!video_) return;
-  try {
-    const std::int64_t frames = video_->finish();
-    say(frames > 0 ? fmt::format("saved {} ({} frames)", video_->path(), frames) : "no frame was recorded");
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
-  video_.reset();
+std::vector<bool> Session::chosenInstances() const {
+  if (!state.scene || selected_node_ == kNone) return {};
+  return instancesBelow(state.scene->scene, state.scene->instance_nodes, selected_node_);
+}
+
+/// For what is clicked, outlined or inspected.
+bool Session::wantsLayers() const {
+  const std::vector<bool> chosen = chosenInstances();
+  return inspects_ || click_ || std::ranges::find(chosen, true) != chosen.end();
 }
 
 void Session::loseDevice() {

@@ -5,6 +5,7 @@
 // that read, bake, draw and trace. Panels, keys and scripts all come here.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <optional>
@@ -23,6 +24,7 @@
 namespace gloam::view {
 
 enum Side { kLeft = 0, kRight = 1 };
+inline constexpr double kStillSeconds = 0.2;  ///< after the last change nothing moves
 
 struct Message {
   std::string text;
@@ -33,6 +35,20 @@ struct Message {
 struct ReferenceChoice {
   int bounces = 2, samples = 4096;
   bool same_light = true;  ///< only what the technique covers
+};
+
+/// All that a reference depends on.
+struct ReferenceKey {
+  const LoadedScene* scene;
+  const DistantLight* base;
+  std::array<float, 6> values;  ///< rotation and intensity of the light from afar, time, camera, resolution
+  std::array<int, 4> counts;    ///< bounces, samples, size of the picture's place
+  glm::mat4 world_from_view;
+  std::string lights;
+  cli::NodeMoves moves;
+  Coverage light;
+  bool background;
+  bool operator==(const ReferenceKey&) const = default;
 };
 
 class Session {
@@ -53,8 +69,10 @@ class Session {
   void setTime(float time_s);
   void play(bool playing);
   void frameScene();
-  void resetEdits();
+  void resetMoves();
   void clickAt(const glm::vec2& place);  ///< 0 to 1 of the picture: selects what is there
+  void choose(int node);                 ///< selects it; kNone: nothing
+  void inspect(bool inspects);           ///< pictures have all layers from now on
   /// Under a name as a preset or the command line has it ("exposure", "env_rotation", "proxies.spheres"). Throws Error.
   void set(const std::string& name, const std::string& value);
   void saveScreenshot(const std::string& path);
@@ -66,8 +84,9 @@ class Session {
 
   /// Takes what the threads finished, asks for the next picture: once a frame of the window, with the size of the picture's place.
   void update(int width, int height);
-  bool idle()
-      const;  ///< the newest picture is shown at the size it keeps, and nothing runs in the background
+  /// The newest picture is shown at the size it keeps (with a button held: at that for moving ones), and nothing runs in the
+  /// background.
+  bool idle() const;
   bool moving() const;
   bool drawing() const { return worker_.busy(); }
   /// Asks for the picture of what has changed since update(), which would else ask a frame of the window later.
@@ -82,13 +101,16 @@ class Session {
   bool playing = false, dragging = false;
   float divider = 0.5f;  ///< of a split screen, 0 to 1
   float speed = 1.0f;
-  int selected_node = kNone;
   std::string environment_name, scene_name;
   std::vector<std::string> light_texts;
 
   const Drawn* drawn() const { return drawn_.get(); }
   std::shared_ptr<const Drawn> drawnShared() const { return drawn_; }
   const ReferenceView* reference() const { return reference_.get(); }
+  bool tracing() const { return traced_.has_value(); }
+  Image referencePicture() const;  ///< as a display shows it, linear; empty where there is none
+  int selectedNode() const { return selected_node_; }
+  std::vector<bool> chosenInstances() const;  ///< of PosedScene::instances; empty where nothing is selected
   const FrameHistory& history() const { return history_; }
   const std::deque<Message>& messages() const { return messages_; }
   const RecentFiles& recent() const { return recent_; }
@@ -104,6 +126,7 @@ class Session {
   }                                                   ///< pictures from an input to the one that shows it
   double lastSwitchMs() const { return switch_ms_; }  ///< from picking a technique to its picture
   bool recording() const { return video_ != nullptr; }
+  std::int64_t recordedFrames() const { return video_ ? video_->frames() : 0; }
   std::string fatal;  ///< why there is nothing to show at all
   int validationMessages() const { return worker_.validationMessages(); }
   void loseDevice();
@@ -111,9 +134,10 @@ class Session {
   double now_s() const;
 
  private:
-  struct Opened;
-  void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base,
-             const PosedCamera& camera);
+  void openChoice(const ViewerChoice& choice, std::function<void()> then);
+  void openPreset(const ViewerChoice& preset, const std::string& path);
+  void takePreset(const ViewerChoice& preset, const std::string& path);
+  void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base);
   void adoptChoice(const ViewerChoice& choice);
   void prepare();
   void startBake(const Pick& pick);
@@ -125,14 +149,17 @@ class Session {
   void takeProblem(const Drawn& drawn);
   void takeMissing(const Drawn& drawn);
   void advance();
+  ReferenceKey referenceKey() const;
+  void dropReference();
   void followReference();
+  bool wantsLayers() const;
   void followShaders();
   void select(const Drawn& drawn);
 
   ViewerChoice choice_;
   RecentFiles recent_;
   ShaderWatch shaders_;
-  std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0, traced_serial_ = 0;
+  std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0;
   std::uint64_t answered_serial_ = 0;  ///< of the last picture, drawn or not
   std::uint64_t picture_revision_ = 0;
   int width_ = 0, height_ = 0, sent_width_ = 0, sent_height_ = 0, still_width_ = 0, still_height_ = 0;
@@ -143,16 +170,21 @@ class Session {
   std::clock_t switch_clock_ = 0;
   std::uint64_t response_serial_ = 0;
   int response_from_ = 0, slowest_response_ = 0;
-  std::uint64_t switch_serial_ = 0;
   float duration_s_ = 0.0f;
   bool preparing_ = false, first_ = true;
-  int growths_ = 0;       ///< of a picture that stands still
+  int growths_ = 0;          ///< of a picture that stands still
+  float grown_from_ = 0.0f;  ///< share of the window that the last one grew from
+  int selected_node_ = kNone;
+  bool inspects_ = false;
   std::string measured_;  ///< what was drawn last
   std::optional<glm::vec2> click_;
   std::deque<Message> messages_;
   FrameHistory history_;
   std::shared_ptr<const Drawn> drawn_;
   std::shared_ptr<const ReferenceView> reference_;
+  std::optional<ReferenceKey> traced_;     ///< what the tracer was started for
+  std::shared_ptr<const Drawn> compared_;  ///< the picture that it is measured with
+  int traced_width_ = 0, traced_height_ = 0;
   std::unique_ptr<VideoCapture> video_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   // Threads last: they end before what they write to.

@@ -48,7 +48,7 @@ void Session::startBake(const Pick& pick) {
     return [this, scene, loaded] {
       preparing_ = false;
       if (state.scene == scene) {  // not another one in the meantime
-        if (loaded->scene.nodes.size() != scene->scene.nodes.size()) state.edits.clear();
+        if (loaded->scene.nodes.size() != scene->scene.nodes.size()) state.moves.clear();
         state.scene = loaded;
         state.needs = {};
         resolution.forget();

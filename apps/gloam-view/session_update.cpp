@@ -31,13 +31,18 @@ std::string kindOf(const std::string& left, const std::string& right, const std:
   return left + " " + right + " " + show;
 }
 
-constexpr int kMostGrowths = 3, kMostLosses = 3;
+constexpr int kMostGrowths = 8, kMostLosses = 3;
 constexpr double kLookSeconds = 0.25;   // between looks at the sources of shaders
 constexpr double kSettleSeconds = 0.3;  // after the last change of a slider, before long work starts
 
 }  // namespace
 
 void Session::update(int width, int height) {
+  if (width > 0 && (width != width_ || height != height_)) {
+    resolution.fit(double(width) * height);
+    growths_ = 0;
+    grown_from_ = 0.0f;
+  }
   width_ = width;
   height_ = height;
   for (const std::string& remark : jobs_.take()) say(remark);
@@ -69,7 +74,7 @@ void Session::takeDrawn() {
     if (!said) say(warning);
   }
   const double frame_ms = drawn->left.frame_ms + drawn->right.frame_ms;
-  const std::string kind = kindOf(drawn->technique, drawn->split ? state.right.info->name : "", drawn->show);
+  const std::string kind = kindOf(drawn->technique, drawn->right_technique, drawn->show);
   if (std::exchange(measured_, kind) == kind) {  // the first of its kind compiles shaders
     resolution.add(kind, double(drawn->width) * drawn->height,
                    float(drawn->height) / float(std::max(height_, 1)), frame_ms);
@@ -78,6 +83,7 @@ void Session::takeDrawn() {
   if (drawn->serial == serial_ && still_serial_ == serial_ && !video_ && growths_ < kMostGrowths &&
       resolution.mayGrow(scale_drawn, frame_ms)) {
     ++growths_;
+    grown_from_ = scale_drawn;
     still_serial_ = 0;  // once more, larger
   }
   history_.add(*drawn);
@@ -137,18 +143,8 @@ void Session::select(const Drawn& drawn) {
   const int x = std::clamp(int(place.x * float(drawn.width)), 0, drawn.width - 1);
   const int y = std::clamp(int(place.y * float(drawn.height)), 0, drawn.height - 1);
   const std::uint32_t id = objects->ids[std::size_t(y) * std::size_t(drawn.width) + std::size_t(x)];
-  selected_node = id > 0 && id <= state.scene->instance_nodes.size()
-                      ? state.scene->instance_nodes[std::size_t(id - 1)]
-                      : kNone;
-}
-
-void Session::takeReference() {
-  if (auto reference = tracer_.take()) {
-    if (!reference->problem.empty()) say(reference->problem, true);
-    if (state.split != Split::kReference) return;
-    reference_ = std::move(reference);
-    ++picture_revision_;
-  }
+  choose(id > 0 && id <= state.scene->instance_nodes.size() ? state.scene->instance_nodes[std::size_t(id - 1)]
+                                                            : kNone);
 }
 
 /// By the clock while it plays, a picture at a time; by even steps while a video is taken.
@@ -175,38 +171,26 @@ void Session::requestPicture() {
   takePicks();
   const bool both = state.split == Split::kTechnique;
   const std::string kind = kindOf(state.left.info->name, both ? state.right.info->name : "", state.show);
-  const float scale =
-      resolution.scale(kind, double(width_) * height_, moves, moves && switch_started_s_ >= 0.0);
+  float scale = resolution.scale(kind, double(width_) * height_, moves, moves && switch_started_s_ >= 0.0);
+  if (!moves && grown_from_ > 0.0f) scale = resolution.grown(scale, grown_from_);
   int width = std::max(1, int(std::lround(float(width_) * scale)));
   int height = std::max(1, int(std::lround(float(height_) * scale)));
   if (video_ && video_->frames() > 0 && drawn_) width = drawn_->width, height = drawn_->height;
+  const bool measured = state.split == Split::kReference && traced_ && *traced_ == referenceKey();
+  if (!moves && measured) width = traced_width_, height = traced_height_;  // samples go on
   if (sent_serial_ == serial_ && sent_width_ == width && sent_height_ == height) {
     if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
     return;
   }
   state.width = width;
   state.height = height;
+  state.layers = wantsLayers();
   state.camera = camera.posed();
   worker_.request(serial_, state);
   sent_serial_ = serial_;
   sent_width_ = width;
   sent_height_ = height;
   if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
-}
-
-/// The path tracer begins when the picture stands still, and ends when anything moves.
-void Session::followReference() {
-  if (state.split != Split::kReference || !drawn_) return;
-  if (moving() || drawn_->serial != serial_) {
-    if (traced_serial_ != 0) tracer_.stop();
-    traced_serial_ = 0;
-    return;
-  }
-  if (traced_serial_ == serial_ || still_serial_ != serial_ || worker_.busy()) return;
-  traced_serial_ = serial_;
-  const Pick& pick = state.left;
-  const Coverage light = reference_choice.same_light ? coverageWith(*pick.info, pick.settings) : kAllLight;
-  tracer_.start(state, drawn_, light, reference_choice.bounces, reference_choice.samples);
 }
 
 /// Sources that were edited are compiled in the background; what goes wrong leaves the shader as it was.
@@ -227,8 +211,10 @@ void Session::followShaders() {
 }
 
 bool Session::idle() const {
-  return !jobs_.status().busy && !preparing_ && !worker_.busy() && !moving() && drawn_ &&
-         answered_serial_ == serial_ && still_serial_ == serial_ && answered_width_ == sent_width_;
+  const bool shown = !jobs_.status().busy && !preparing_ && !worker_.busy() && drawn_ &&
+                     answered_serial_ == serial_ && answered_width_ == sent_width_;
+  if (dragging) return shown && !playing && now_s() - last_change_s_ >= kStillSeconds;
+  return shown && !moving() && still_serial_ == serial_;
 }
 
 cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
@@ -245,12 +231,14 @@ cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
   json["show"] = state.show;
   json["environment"] = state.base ? state.base->map->name : "";
   json["env_rotation"] = cli::shortest(state.env_rotation_deg);
-  json["selected"] = selected_node;
-  json["edits"] = state.edits.size();
+  json["selected"] = selected_node_;
+  json["scale"] = drawn_ && height_ > 0 ? double(drawn_->height) / height_ : 0.0;
+  json["moves"] = state.moves.size();
   json["waits"] = waitsFor(kLeft) || waitsFor(kRight);
   if (state.left.info != nullptr) json["settings"] = cli::settingsJson(*state.left.info, state.left.settings);
   if (reference_) {
-    json["reference"] = {{"samples", reference_->samples}, {"noise", reference_->noise}};
+    json["reference"] = {
+        {"samples", reference_->samples}, {"noise", reference_->noise}, {"seconds", reference_->seconds}};
     if (reference_->error) json["reference"]["relative_rmse"] = reference_->error->relative_rmse;
   }
   cli::Json said = cli::Json::array();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "gizmo.h"
 #include "session.h"
 
 namespace gloam::view {
@@ -25,15 +26,19 @@ struct Place {
 /// What of the window is the window's alone.
 struct UiState {
   bool panel = true, inspector = false, quit = false;
-  bool turns = false;  ///< the gizmo rotates instead of moving
+  bool turns = false;        ///< the gizmo rotates instead of moving
+  std::optional<Pull> pull;  ///< of a handle that the mouse holds
+  bool let_go = false;       ///< the handle was let go by Esc before the button was
   float scale = 1.0f;
   double ui_device_ms = 0.0;
   std::string path;  ///< typed into "open"
   std::string preset = "preset.json", screenshot = "gloam.png", video = "gloam.mp4";
+  std::string last_preset;  ///< that F5 saved: what F9 loads
   /// Keys since the last frame, each press and repeat: short ones between two slow frames count too.
   std::vector<int> pressed, repeated;
-  std::string copied;                     ///< to the clipboard, by whoever owns it
-  std::map<std::string, Place> controls;  ///< of this frame, by name: for tests
+  std::vector<std::uint8_t> reference_bytes;  ///< RGBA, as it is shown
+  std::string copied;                         ///< to the clipboard, by whoever owns it
+  std::map<std::string, Place> controls;      ///< of this frame, by name: for tests
 };
 
 void setStyle(float scale);
@@ -45,6 +50,8 @@ void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& 
 void drawPicture(Session& session, const Place& place);
 /// Status line, messages, progress, play bar: over or under the picture.
 void drawOverlays(Session& session, UiState& ui, const Place& place);
+/// The height of the picture's tags.
+float tagHeight(float scale);
 void drawInspector(Session& session, const UiState& ui, const Place& place);
 /// Marks of lights, and handles of what is selected. True while the mouse is theirs.
 bool drawGizmo(Session& session, UiState& ui, const Place& place);
@@ -78,6 +85,10 @@ bool inputPath(const char* id, std::string& text, float width);
 void dim(const std::string& text);
 /// In one line; what does not fit is cut, and shown whole under the mouse.
 void fittedLine(const std::string& text, float width);
+/// What of a text fits, with … where it was cut.
+std::string fitted(const std::string& text, float width);
+/// "1.2 %"; a dash for what is not known.
+std::string percent(double share, int digits);
 /// A row of a table of two columns.
 void valueRow(const char* name, const std::string& value);
 /// Controls for every option of a technique, from its table.

@@ -1,240 +1,118 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Handles of a thing or a light: arrows along the axes, squares for planes, rings to turn it. Drawn by lines over the picture.
+// Handles of what is selected (gizmo.h) and marks of lights, drawn by lines over the picture.
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "ui.h"
 
 namespace gloam::view {
 namespace {
 
-constexpr float kReachPixels = 84.0f, kNearPixels = 7.0f;
-constexpr int kRingPoints = 48;
 constexpr ImU32 kColors[3] = {IM_COL32(222, 96, 88, 255), IM_COL32(126, 196, 96, 255),
                               IM_COL32(92, 148, 230, 255)};
 constexpr ImU32 kSoftColors[3] = {IM_COL32(222, 96, 88, 90), IM_COL32(126, 196, 96, 90),
                                   IM_COL32(92, 148, 230, 90)};
 constexpr ImU32 kBright = IM_COL32(255, 232, 150, 255), kRim = IM_COL32(12, 14, 18, 150);
 
-enum class Kind { kNone, kAxis, kPlane, kRing };
-
-/// What the mouse holds since it went down.
-struct Held {
-  Kind kind = Kind::kNone;
-  int axis = 0;
-  int node = kNone;
-  glm::vec3 origin{0.0f}, start{0.0f};
-  float start_value = 0.0f;
-  NodeEdits before;
-  glm::vec3 moved{0.0f};
-};
-Held held;
-
-struct Stage {
-  const Place& place;
-  PosedCamera camera;
-  glm::vec3 origin;
-  float reach;  ///< metres
-  glm::vec2 size() const { return {place.size.x, place.size.y}; }
-  ImVec2 onScreen(const glm::vec3& world) const {
-    const glm::vec3 p = project(camera, world, size());
-    return {place.low.x + p.x, place.low.y + p.y};
+/// Places of the picture in the window.
+class Pen {
+ public:
+  Pen(const Place& place, float scale) : low_(place.low), scale_(scale) {}
+  void line(const glm::vec2& a, const glm::vec2& b, ImU32 color) const {
+    list_.AddLine(at(a), at(b), color, 2.5f * scale_);
   }
-  Ray mouseRay() const {
-    const ImVec2 m = ImGui::GetIO().MousePos;
-    return rayThrough(camera, {m.x - place.low.x, m.y - place.low.y}, size());
+  void dot(const glm::vec2& p, float radius, ImU32 color) const {
+    list_.AddCircleFilled(at(p), radius * scale_, color);
   }
+  template <std::size_t kCount>
+  void polygon(const std::array<glm::vec2, kCount>& points, ImU32 color, float thickness) const {
+    std::array<ImVec2, kCount> placed;
+    std::ranges::transform(points, placed.begin(), [this](const glm::vec2& p) { return at(p); });
+    if (thickness > 0.0f) {
+      list_.AddPolyline(placed.data(), int(kCount), color, ImDrawFlags_Closed, thickness * scale_);
+    } else {
+      list_.AddConvexPolyFilled(placed.data(), int(kCount), color);
+    }
+  }
+
+ private:
+  ImVec2 at(const glm::vec2& p) const { return {low_.x + p.x, low_.y + p.y}; }
+  ImDrawList& list_ = *ImGui::GetBackgroundDrawList();
+  ImVec2 low_;
+  float scale_;
 };
 
-glm::vec3 axisOf(int i) {
-  glm::vec3 axis(0.0f);
-  axis[i] = 1.0f;
-  return axis;
-}
-
-float distanceToSegment(const ImVec2& p, const ImVec2& a, const ImVec2& b) {
-  const glm::vec2 ab(b.x - a.x, b.y - a.y), ap(p.x - a.x, p.y - a.y);
-  const float t = std::clamp(glm::dot(ap, ab) / std::max(glm::dot(ab, ab), 1e-6f), 0.0f, 1.0f);
-  return glm::length(ap - ab * t);
-}
-
-/// Along the axis, the place that is nearest to the ray.
-float alongAxis(const Ray& ray, const glm::vec3& origin, const glm::vec3& axis) {
-  const glm::vec3 w = origin - ray.origin;
-  const float b = glm::dot(axis, ray.direction), d = glm::dot(axis, w), e = glm::dot(ray.direction, w);
-  const float denominator = 1.0f - b * b;
-  return denominator < 1e-5f ? 0.0f : (b * e - d) / denominator;
-}
-
-std::optional<glm::vec3> onPlane(const Ray& ray, const glm::vec3& origin, const glm::vec3& normal) {
-  const float facing = glm::dot(ray.direction, normal);
-  if (std::abs(facing) < 1e-4f) return std::nullopt;
-  const float t = glm::dot(origin - ray.origin, normal) / facing;
-  if (t <= 0.0f) return std::nullopt;
-  return ray.origin + ray.direction * t;
-}
-
-float angleOnRing(const glm::vec3& point, const glm::vec3& origin, int axis) {
-  const glm::vec3 d = point - origin;
-  return std::atan2(d[(axis + 2) % 3], d[(axis + 1) % 3]);
-}
-
-std::array<ImVec2, kRingPoints> ringOf(const Stage& stage, int axis) {
-  std::array<ImVec2, kRingPoints> points;
-  for (int i = 0; i < kRingPoints; ++i) {
-    const float angle = 2.0f * std::numbers::pi_v<float> * float(i) / kRingPoints;
-    glm::vec3 p(0.0f);
-    p[(axis + 1) % 3] = std::cos(angle) * stage.reach;
-    p[(axis + 2) % 3] = std::sin(angle) * stage.reach;
-    points[std::size_t(i)] = stage.onScreen(stage.origin + p);
-  }
-  return points;
-}
-
-std::array<ImVec2, 4> squareOf(const Stage& stage, int axis) {
-  const glm::vec3 a = axisOf((axis + 1) % 3) * stage.reach, b = axisOf((axis + 2) % 3) * stage.reach;
-  const auto at = [&](float u, float v) { return stage.onScreen(stage.origin + a * u + b * v); };
-  return {at(0.28f, 0.28f), at(0.5f, 0.28f), at(0.5f, 0.5f), at(0.28f, 0.5f)};
-}
-
-bool within(const std::array<ImVec2, 4>& square, const ImVec2& p) {
-  bool positive = false, negative = false;
-  for (int i = 0; i < 4; ++i) {
-    const ImVec2 a = square[std::size_t(i)], b = square[std::size_t((i + 1) % 4)];
-    const float side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-    (side >= 0.0f ? positive : negative) = true;
-  }
-  return positive != negative;
-}
-
-struct Hover {
-  Kind kind = Kind::kNone;
-  int axis = 0;
-};
-
-Hover hoverOf(const Stage& stage, bool turns, float scale) {
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  Hover best;
-  float nearest = kNearPixels * scale;
+void drawHandles(const Handles& handles, const Handle& lit, const Place& place) {
+  const Pen pen(place, handles.scale);
+  using Kind = Handle::Kind;
+  const glm::vec2 centre = handles.onScreen(handles.origin);
+  const auto isLit = [&](Kind kind, int axis) { return lit.kind == kind && lit.axis == axis; };
   for (int axis = 0; axis < 3; ++axis) {
-    if (turns) {
-      const auto ring = ringOf(stage, axis);
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const float d = distanceToSegment(mouse, ring[i], ring[(i + 1) % ring.size()]);
-        if (d < nearest) nearest = d, best = {Kind::kRing, axis};
-      }
+    if (handles.turns) {
+      const bool bright = isLit(Kind::kRing, axis);
+      pen.polygon(handles.ring(axis), bright ? kBright : kColors[axis], bright ? 3.0f : 2.0f);
       continue;
     }
-    if (within(squareOf(stage, axis), mouse)) return {Kind::kPlane, axis};
-    const glm::vec3 tip = stage.origin + axisOf(axis) * stage.reach;
-    const float d = distanceToSegment(mouse, stage.onScreen(stage.origin), stage.onScreen(tip));
-    if (d < nearest) nearest = d, best = {Kind::kAxis, axis};
+    pen.polygon(handles.square(axis), isLit(Kind::kPlane, axis) ? kBright : kSoftColors[axis], 0.0f);
+    const ImU32 color = isLit(Kind::kAxis, axis) ? kBright : kColors[axis];
+    pen.line(centre, handles.tip(axis), color);
+    pen.dot(handles.tip(axis), 5.0f, color);
   }
-  return best;
-}
-
-void drawHandles(const Stage& stage, bool turns, const Hover& hover, float scale) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool lit = hover.kind != Kind::kNone && hover.axis == axis;
-    if (turns) {
-      const auto ring = ringOf(stage, axis);
-      list.AddPolyline(ring.data(), kRingPoints, lit ? kBright : kColors[axis], ImDrawFlags_Closed,
-                       (lit ? 3.0f : 2.0f) * scale);
-      continue;
-    }
-    const auto square = squareOf(stage, axis);
-    list.AddConvexPolyFilled(square.data(), 4,
-                             lit && hover.kind == Kind::kPlane ? kBright : kSoftColors[axis]);
-    const ImU32 color = lit && hover.kind == Kind::kAxis ? kBright : kColors[axis];
-    const ImVec2 from = stage.onScreen(stage.origin),
-                 to = stage.onScreen(stage.origin + axisOf(axis) * stage.reach);
-    list.AddLine(from, to, color, 2.5f * scale);
-    list.AddCircleFilled(to, 5.0f * scale, color);
-  }
-  list.AddCircleFilled(stage.onScreen(stage.origin), 4.0f * scale, IM_COL32(240, 240, 240, 255));
+  const bool held = lit.kind == Kind::kCentre;
+  pen.dot(centre, held ? 7.0f : 6.0f, kRim);
+  pen.dot(centre, held ? 6.0f : 4.5f, held ? kBright : IM_COL32(240, 240, 240, 255));
 }
 
 std::optional<glm::vec3> placeOf(const Session& session) {
   const Drawn& drawn = *session.drawn();
   const LoadedScene& loaded = *session.state.scene;
   for (std::size_t i = 0; i < std::min(loaded.light_nodes.size(), drawn.lights.size()); ++i) {
-    if (loaded.light_nodes[i] == session.selected_node) return drawn.lights[i].position;
+    if (loaded.light_nodes[i] == session.selectedNode()) return drawn.lights[i].position;
   }
   glm::vec3 sum(0.0f);
   int count = 0;
   for (std::size_t i = 0; i < std::min(loaded.instance_nodes.size(), drawn.instance_places.size()); ++i) {
-    if (loaded.instance_nodes[i] == session.selected_node) sum += drawn.instance_places[i], ++count;
+    if (loaded.instance_nodes[i] == session.selectedNode()) sum += drawn.instance_places[i], ++count;
   }
   if (count == 0) return std::nullopt;
   return sum / float(count);
 }
 
-void take(const Session& session, const Stage& stage, const Hover& hover) {
-  held = {hover.kind, hover.axis, session.selected_node, stage.origin, {}, 0.0f, session.state.edits, {}};
-  const glm::vec3 axis = axisOf(hover.axis);
-  const Ray ray = stage.mouseRay();
-  if (hover.kind == Kind::kAxis) held.start_value = alongAxis(ray, stage.origin, axis);
-  held.start = onPlane(ray, stage.origin, axis).value_or(stage.origin);
-  if (hover.kind == Kind::kRing) held.start_value = angleOnRing(held.start, stage.origin, hover.axis);
-}
-
-void pull(Session& session, const Stage& stage) {
-  const glm::vec3 axis = axisOf(held.axis);
-  const Ray ray = stage.mouseRay();
-  glm::mat4 motion(1.0f);
-  if (held.kind == Kind::kAxis) {
-    held.moved = axis * (alongAxis(ray, held.origin, axis) - held.start_value);
-    motion = glm::translate(glm::mat4(1.0f), held.moved);
-  } else {
-    const std::optional<glm::vec3> point = onPlane(ray, held.origin, axis);
-    if (!point) return;
-    if (held.kind == Kind::kPlane) {
-      held.moved = *point - held.start;
-      motion = glm::translate(glm::mat4(1.0f), held.moved);
-    } else {
-      const float angle = angleOnRing(*point, held.origin, held.axis) - held.start_value;
-      motion = glm::translate(glm::mat4(1.0f), held.origin) * glm::rotate(glm::mat4(1.0f), angle, axis) *
-               glm::translate(glm::mat4(1.0f), -held.origin);
-    }
-  }
-  NodeEdits edits = held.before;
-  moveNode(session.state.scene->scene, edits, held.node, motion);
-  session.state.edits = std::move(edits);
+void pullOn(Session& session, UiState& ui, const glm::vec2& mouse) {
+  const auto moves = ui.pull->to(session.state.scene->scene, mouse);
+  if (!moves || *moves == session.state.moves) return;  // held still, it stands still
+  session.state.moves = *moves;
   session.changed();
 }
 
+/// What was moved since the handle was taken goes back; the handle stays let go until the button is.
+void putBack(Session& session, UiState& ui) {
+  session.state.moves = ui.pull->before();
+  session.changed();
+  ui.pull.reset();
+  ui.let_go = true;
+}
+
 /// Handles, and what the mouse does with them. True while it is theirs.
-bool drawSelected(Session& session, const UiState& ui, const Place& place) {
-  const std::optional<glm::vec3> at = held.kind == Kind::kNone ? placeOf(session) : held.origin + held.moved;
-  bool mine = false;
-  if (at && place.size.y > 1.0f) {
-    Stage stage{place, session.camera.posed(), *at, 0.0f};
-    const glm::vec3 seen = project(stage.camera, *at, stage.size());
-    const Camera& camera = stage.camera.camera;
-    const float half =
-        camera.perspective ? std::tan(camera.vertical_fov_rad * 0.5f) * seen.z : camera.half_height;
-    stage.reach = kReachPixels * ui.scale * 2.0f * half / place.size.y;
-    if (seen.z > 0.0f) {
-      const bool free = held.kind == Kind::kNone;
-      const Hover hover = free ? hoverOf(stage, ui.turns, ui.scale) : Hover{held.kind, held.axis};
-      drawHandles(stage, ui.turns, hover, ui.scale);
-      const bool over = hover.kind != Kind::kNone && place.holds(ImGui::GetIO().MousePos);
-      if (free && over && ImGui::IsMouseClicked(0) && !ImGui::GetIO().WantCaptureMouse)
-        take(session, stage, hover);
-      if (held.kind != Kind::kNone) {
-        if (ImGui::GetIO().MouseDown[0]) pull(session, stage);
-        mine = true;
-      }
-    }
-  }
-  if (!ImGui::GetIO().MouseDown[0]) held = {};
-  return mine;
+bool drawSelected(Session& session, UiState& ui, const Place& place) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!io.MouseDown[0]) ui.pull.reset(), ui.let_go = false;
+  if (ui.pull && std::erase(ui.pressed, GLFW_KEY_ESCAPE) > 0) putBack(session, ui);
+  const std::optional<glm::vec3> at = ui.pull ? ui.pull->place() : placeOf(session);
+  if (!at || place.size.y <= 1.0f) return ui.let_go;
+  const Handles handles{session.camera.posed(), {place.size.x, place.size.y}, *at, ui.turns, ui.scale};
+  if (project(handles.camera, *at, handles.size).z <= 0.0f) return ui.let_go || ui.pull.has_value();
+  const glm::vec2 mouse(io.MousePos.x - place.low.x, io.MousePos.y - place.low.y);
+  const Handle under = ui.pull ? ui.pull->handle() : ui.let_go ? Handle{} : handleAt(handles, mouse);
+  drawHandles(handles, under, place);
+  if (!ui.pull && under && place.holds(io.MousePos) && ImGui::IsMouseClicked(0) && !io.WantCaptureMouse)
+    ui.pull.emplace(handles, under, session.selectedNode(), session.state.moves, mouse);
+  if (ui.pull) pullOn(session, ui, mouse);
+  return ui.let_go || ui.pull.has_value();
 }
 
 bool isNear(const LightMark& mark, const ImVec2& at, float scale) {
@@ -251,6 +129,8 @@ void drawLightMarks(const Session& session, const Place& place, float scale) {
     list.AddCircleFilled(mark.at, 4.0f * scale, color);
     list.AddCircle(mark.at, 8.5f * scale, kRim, 24, 3.5f * scale);
     list.AddCircle(mark.at, 8.5f * scale, color, 24, 1.5f * scale);
+    if (mark.node == session.selectedNode())
+      list.AddCircle(mark.at, 14.0f * scale, kBright, 32, 2.0f * scale);
   }
 }
 
@@ -281,8 +161,8 @@ int lightAt(const Session& session, const Place& place, const ImVec2& at, float 
 }
 
 bool drawGizmo(Session& session, UiState& ui, const Place& place) {
-  const bool selected = session.drawn() != nullptr && session.state.scene && session.selected_node != kNone;
-  if (!selected) held = {};
+  const bool selected = session.drawn() != nullptr && session.state.scene && session.selectedNode() != kNone;
+  if (!selected) ui.pull.reset(), ui.let_go = false;
   if (!selected && !ui.panel) return false;  // the picture alone
   ImGui::GetBackgroundDrawList()->PushClipRect(place.low,
                                                {place.low.x + place.size.x, place.low.y + place.size.y});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "file_names.h"
 #include "ui.h"
 
 namespace gloam::view {
@@ -70,7 +71,7 @@ void mouse(Session& session, UiState& ui, const Place& place, bool gizmo_has_mou
           place.size.x > 0.0f) {
         const int light = lightAt(session, place, io.MousePos, ui.scale);
         if (light != kNone) {
-          session.selected_node = light;
+          session.choose(light);
         } else {
           session.clickAt(
               {(io.MousePos.x - place.low.x) / place.size.x, (io.MousePos.y - place.low.y) / place.size.y});
@@ -121,6 +122,15 @@ void timeKeys(Session& session, const UiState& ui) {
   session.setTime(session.state.time_s + step / 30.0f);
 }
 
+/// Keys overwrite nothing.
+void fileKeys(Session& session, UiState& ui) {
+  if (among(ui.pressed, GLFW_KEY_F2)) session.saveScreenshot(freeName(ui.screenshot));
+  if (among(ui.pressed, GLFW_KEY_F3))
+    session.recording() ? session.stopVideo() : session.startVideo(freeName(ui.video));
+  if (among(ui.pressed, GLFW_KEY_F5)) session.savePreset(ui.last_preset = freeName(ui.preset));
+  if (among(ui.pressed, GLFW_KEY_F9)) session.loadPreset(ui.last_preset.empty() ? ui.preset : ui.last_preset);
+}
+
 void keys(Session& session, UiState& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
@@ -128,17 +138,9 @@ void keys(Session& session, UiState& ui) {
   if (among(ui.pressed, GLFW_KEY_F)) session.frameScene();
   if (among(ui.pressed, GLFW_KEY_G)) ui.turns = !ui.turns;
   if (among(ui.pressed, GLFW_KEY_C)) session.setSplit(Split((int(session.state.split) + 1) % 3));
-  if (among(ui.pressed, GLFW_KEY_ESCAPE)) session.selected_node = kNone;
-  if (among(ui.pressed, GLFW_KEY_F2)) session.saveScreenshot(ui.screenshot);
-  if (among(ui.pressed, GLFW_KEY_F3))
-    session.recording() ? session.stopVideo() : session.startVideo(ui.video);
-  if (among(ui.pressed, GLFW_KEY_F5)) session.savePreset(ui.preset);
-  if (among(ui.pressed, GLFW_KEY_F9)) session.loadPreset(ui.preset);
-  if (among(ui.pressed, GLFW_KEY_I)) {
-    ui.inspector = !ui.inspector;
-    session.state.layers = ui.inspector;
-    session.changed();
-  }
+  if (among(ui.pressed, GLFW_KEY_ESCAPE)) session.choose(kNone);
+  if (among(ui.pressed, GLFW_KEY_I)) session.inspect(ui.inspector = !ui.inspector);
+  fileKeys(session, ui);
   for (std::size_t i = 0; i < std::min<std::size_t>(techniques().size(), 9); ++i) {
     if (among(ui.pressed, GLFW_KEY_1 + int(i))) session.pick(kLeft, techniques()[i].name);
   }

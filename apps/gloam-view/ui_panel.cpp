@@ -125,7 +125,7 @@ void lightSection(Session& session) {
                                 ImGuiSliderFlags_Logarithmic);
   label("exposure", "in stops: each doubles the light");
   ImGui::SetNextItemWidth(-52.0f * ImGui::GetFontSize() / 14.0f);
-  changed |= ImGui::SliderFloat("##exposure", &state.display.exposure_stops, -10.0f, 10.0f, "%+.1f");
+  changed |= ImGui::SliderFloat("##exposure", &state.display.exposure_stops, -10.0f, 10.0f, "%+.2f");
   ImGui::SameLine();
   if (ImGui::Button("Auto", {-1.0f, 0.0f})) {
     state.display.auto_exposure = changed = true;
@@ -200,10 +200,7 @@ void viewSection(Session& session, UiState& ui) {
   if (ImGui::SliderInt("##supersample", &session.state.supersample, 1, 4, "%d", ImGuiSliderFlags_AlwaysClamp))
     session.changed();
   label("pixel inspector", "linear values under the mouse (I)");
-  if (ImGui::Checkbox("##inspector", &ui.inspector)) {
-    session.state.layers = ui.inspector;
-    session.changed();
-  }
+  if (ImGui::Checkbox("##inspector", &ui.inspector)) session.inspect(ui.inspector);
 }
 
 void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& window) {
@@ -223,7 +220,9 @@ void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& 
   if (section("Compare", false)) compareSection(session, ui);
   cameraSection(session);
   if (section("Move things", false)) objectSection(session, ui);
-  if (section("Times and memory", false)) timesSection(session, ui);
+  const bool times = section("Times and memory", false);
+  noteControl(ui, "times");
+  if (times) timesSection(session, ui);
   if (section("Save", false)) saveSection(session, ui);
   ImGui::End();
 }

@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// The picture and what is written over it: split screen, status, messages, progress, the pixel inspector.
+// The picture and what is written over it: split screen, status, messages, progress.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,24 +23,57 @@ ImGuiWindowFlags plain() {
          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
 }
 
-void tag(ImDrawList& list, ImVec2 at, const std::string& text, bool to_the_left, float scale) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+/// The first text that has room; in a corner.
+void tag(ImDrawList& list, ImVec2 at, const std::vector<std::string>& texts, float room, bool to_the_left,
+         float scale) {
   const ImVec2 pad(8.0f * scale, 4.0f * scale);
-  if (to_the_left) at.x -= size.x + 2.0f * pad.x;
-  list.AddRectFilled(at, {at.x + size.x + 2.0f * pad.x, at.y + size.y + 2.0f * pad.y}, kShade, 3.0f * scale);
-  list.AddText({at.x + pad.x, at.y + pad.y}, kSoft, text.c_str());
+  for (const std::string& text : texts) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    if (size.x + 2.0f * pad.x > room) continue;
+    if (to_the_left) at.x -= size.x + 2.0f * pad.x;
+    list.AddRectFilled(at, {at.x + size.x + 2.0f * pad.x, at.y + size.y + 2.0f * pad.y}, kShade,
+                       3.0f * scale);
+    list.AddText({at.x + pad.x, at.y + pad.y}, kSoft, text.c_str());
+    return;
+  }
 }
 
-std::string rightName(const Session& session) {
-  if (session.state.split == Split::kTechnique) return session.state.right.info->name;
+/// What the right half shows, the longest first.
+std::vector<std::string> rightNames(const Session& session) {
+  if (session.state.split == Split::kTechnique) return {session.state.right.info->name};
   const ReferenceView* reference = session.reference();
-  if (reference == nullptr) return "reference";
-  std::string text =
+  const char* name = session.state.left.info->name;
+  if (reference == nullptr && session.tracing())
+    return {fmt::format("{}: the first sample of the reference is on its way", name), name};
+  if (reference == nullptr) return {fmt::format("{}: the reference begins when it stands still", name), name};
+  if (!reference->layers) return {fmt::format("{}: there is no reference", name), name};
+  const std::string samples =
       fmt::format("reference, {} sample{}", reference->samples, reference->samples == 1 ? "" : "s");
-  if (reference->error)
-    text += fmt::format(", error {:.1f} %, noise {:.1f} %", reference->error->relative_rmse * 100.0,
-                        reference->noise * 100.0);
-  return text;
+  std::vector<std::string> texts = {samples, "reference"};
+  if (reference->error) {
+    const std::string error = percent(reference->error->relative_rmse, 1);
+    texts.insert(texts.begin(), fmt::format("reference, error {}", error));
+    texts.insert(texts.begin(),
+                 fmt::format("{}, error {}, noise {}", samples, error, percent(reference->noise, 1)));
+  }
+  return texts;
+}
+
+/// Over the picture's upper left corner, below its tag: nothing else stands there.
+void recordingMark(const Session& session, const Place& place, float scale) {
+  const float top =
+      place.low.y + 12.0f * scale + (session.state.split == Split::kNone ? 0.0f : tagHeight(scale));
+  const ImVec2 low(place.low.x + 12.0f * scale, top);
+  const std::string text = fmt::format("recording, {} frame{}", session.recordedFrames(),
+                                       session.recordedFrames() == 1 ? "" : "s");
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float height = size.y + 8.0f * scale, dot = 22.0f * scale;
+  const bool wide = size.x + dot + 32.0f * scale < place.size.x;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(low, {low.x + dot + (wide ? size.x + 8.0f * scale : 0.0f), low.y + height}, kShade,
+                     3.0f * scale);
+  list.AddCircleFilled({low.x + 0.5f * dot, low.y + 0.5f * height}, 5.5f * scale, IM_COL32(220, 70, 60, 255));
+  if (wide) list.AddText({low.x + dot, low.y + 4.0f * scale}, kSoft, text.c_str());
 }
 
 void statusLine(const Session& session, const UiState& ui, const Place& place) {
@@ -65,25 +98,48 @@ void statusLine(const Session& session, const UiState& ui, const Place& place) {
   ImGui::PopStyleVar(2);
 }
 
-/// The newest lowest, each whole: in as many lines as the picture's width asks for.
+/// The text in lines of that width, cut where it takes more than `most` of them.
+std::string inLines(const std::string& text, float width, int most) {
+  const ImFont& font = *ImGui::GetFont();
+  const float scale = ImGui::GetFontSize() / font.FontSize;
+  const char *at = text.data(), *end = text.data() + text.size();
+  std::string lines;
+  for (int line = 1; at < end; ++line) {
+    if (line >= most) return lines + fitted({at, end}, width);
+    const char* stop = font.CalcWordWrapPositionA(scale, at, end, width);
+    if (stop <= at) stop = at + 1;
+    lines.append(at, stop);
+    for (at = stop; at < end && *at == ' '; ++at) {
+    }
+    if (at < end) lines += '\n';
+  }
+  return lines;
+}
+
+/// The newest lowest, together at most a third of the picture's height; one that was cut is shown whole under the mouse.
 void messageList(const Session& session, const UiState& ui, const Place& place, float bottom) {
   constexpr int kMostShown = 3;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float margin = 16.0f * ui.scale, gap = 4.0f * ui.scale;
+  const float margin = std::min(16.0f * ui.scale, 0.03f * place.size.x), gap = 4.0f * ui.scale;
   const ImVec2 pad(8.0f * ui.scale, 4.0f * ui.scale);
-  const float wrap = place.size.x - 2.0f * (margin + pad.x);
-  if (wrap < 60.0f * ui.scale) return;
+  const float wrap = place.size.x - 2.0f * (margin + pad.x), line = ImGui::GetTextLineHeight();
+  float room = std::max(place.size.y / 3.0f, line + 2.0f * pad.y);
+  if (wrap < 60.0f * ui.scale || bottom < line + 2.0f * pad.y + gap) return;
   int shown = 0;
   for (auto m = session.messages().rbegin(); m != session.messages().rend() && shown < kMostShown; ++m) {
     if (session.now_s() - m->at_s > (m->problem ? kProblemSeconds : kShownSeconds)) continue;
-    const ImVec2 size = ImGui::CalcTextSize(m->text.c_str(), nullptr, false, wrap);
+    const int most = int((std::min(room, bottom - gap) - 2.0f * pad.y) / line + 0.01f);
+    if (most < 1) break;
+    const std::string text = inLines(m->text, wrap, most);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float height = size.y + 2.0f * pad.y;
-    if (shown > 0 && bottom - height < gap) break;
-    const ImVec2 low(margin, std::max(bottom - height, gap));  // the newest begins inside
-    list.AddRectFilled(low, {low.x + size.x + 2.0f * pad.x, low.y + height}, kShade, 3.0f * ui.scale);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
-                 m->problem ? kAlarm : kSoft, m->text.c_str(), nullptr, wrap);
+    const ImVec2 low(margin, bottom - height), high(margin + size.x + 2.0f * pad.x, bottom);
+    list.AddRectFilled(low, high, kShade, 3.0f * ui.scale);
+    list.AddText({low.x + pad.x, low.y + pad.y}, m->problem ? kAlarm : kSoft, text.c_str());
+    const bool cut = text.ends_with("…") && !m->text.ends_with("…");
+    if (cut && ImGui::IsMouseHoveringRect(low, high, false)) helpMark(m->text.c_str());
     bottom = low.y - gap;
+    room -= height + gap;
     ++shown;
   }
 }
@@ -151,6 +207,10 @@ float playBar(Session& session, UiState& ui, const Place& place, float above) {
 
 }  // namespace
 
+float tagHeight(float scale) {
+  return ImGui::GetTextLineHeight() + 14.0f * scale;
+}
+
 void drawPicture(Session& session, const Place& place) {
   const Drawn* drawn = session.drawn();
   if (drawn == nullptr || drawn->left.rgba.empty()) return;
@@ -169,10 +229,12 @@ void drawPicture(Session& session, const Place& place) {
   list.AddRectFilled({x - 3.5f * scale, grip_y - 18.0f * scale}, {x + 3.5f * scale, grip_y + 18.0f * scale},
                      kWhite, 3.5f * scale);
   list.PushClipRect(low, {x, high.y}, true);
-  tag(list, {low.x + 12.0f * scale, low.y + 12.0f * scale}, session.state.left.info->name, false, scale);
+  tag(list, {low.x + 12.0f * scale, low.y + 12.0f * scale}, {session.state.left.info->name},
+      x - low.x - 18.0f * scale, false, scale);
   list.PopClipRect();
   list.PushClipRect({x, low.y}, high, true);
-  tag(list, {high.x - 12.0f * scale, low.y + 12.0f * scale}, rightName(session), true, scale);
+  tag(list, {high.x - 12.0f * scale, low.y + 12.0f * scale}, rightNames(session), high.x - x - 18.0f * scale,
+      true, scale);
   list.PopClipRect();
 }
 
@@ -183,81 +245,7 @@ void drawOverlays(Session& session, UiState& ui, const Place& place) {
   taken += playBar(session, ui, place, taken);
   messageList(session, ui, place, place.size.y - 12.0f * ui.scale - taken);
   ImGui::PopStyleVar();
-  if (session.recording()) {
-    const ImVec2 at(place.size.x - 22.0f * ui.scale, place.size.y - 22.0f * ui.scale);
-    ImGui::GetBackgroundDrawList()->AddCircleFilled(at, 7.0f * ui.scale, IM_COL32(220, 70, 60, 255));
-  }
-}
-
-namespace {
-
-std::string colorText(const LayeredImage& layers, const char* layer, std::size_t at) {
-  const Layer* found = layers.find(layer);
-  if (found == nullptr || found->pixels.empty()) return "";
-  const std::size_t n = found->channels.size();
-  std::string text;
-  for (std::size_t c = 0; c < std::min<std::size_t>(n, 3); ++c)
-    text += fmt::format("{}{:.4g}", c > 0 ? "   " : "", found->pixels[at * n + c]);
-  return text;
-}
-
-void inspected(const Drawn& drawn, int x, int y) {
-  const LayeredImage& layers = *drawn.left.layers;
-  const std::size_t at = std::size_t(y) * std::size_t(drawn.width) + std::size_t(x);
-  ImGui::Text("%d, %d", x, y);
-  if (!ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit)) return;
-  const auto line = [&](const char* name, const std::string& text) {
-    if (!text.empty()) valueRow(name, text);
-  };
-  line("radiance", colorText(layers, "", at));
-  for (const char* name : {"direct", "indirect", "albedo", "normal", "depth"})
-    line(name, colorText(layers, name, at));
-  if (const Layer* objects = layers.find("object"); objects != nullptr && !objects->ids.empty())
-    line("object", std::to_string(objects->ids[at]));
-  if (drawn.right.layers && drawn.right.layers->width == drawn.width)
-    line("right", colorText(*drawn.right.layers, "", at));
-  if (!drawn.show.empty()) line("shown", colorText(layers, drawn.show.c_str(), at));
-  ImGui::EndTable();
-}
-
-/// The neighbourhood, as large squares.
-void magnified(const Drawn& drawn, int x, int y, float scale) {
-  constexpr int kReach = 4;
-  const float cell = 11.0f * scale;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (int j = -kReach; j <= kReach; ++j) {
-    for (int i = -kReach; i <= kReach; ++i) {
-      const int px = std::clamp(x + i, 0, drawn.width - 1), py = std::clamp(y + j, 0, drawn.height - 1);
-      const std::uint8_t* c =
-          &drawn.left.rgba[4 * (std::size_t(py) * std::size_t(drawn.width) + std::size_t(px))];
-      const ImVec2 low(at.x + float(i + kReach) * cell, at.y + float(j + kReach) * cell);
-      list.AddRectFilled(low, {low.x + cell, low.y + cell}, IM_COL32(c[0], c[1], c[2], 255));
-    }
-  }
-  const ImVec2 middle(at.x + kReach * cell, at.y + kReach * cell);
-  list.AddRect(middle, {middle.x + cell, middle.y + cell}, kWhite);
-  ImGui::Dummy({cell * (2 * kReach + 1), cell * (2 * kReach + 1)});
-}
-
-}  // namespace
-
-void drawInspector(Session& session, const UiState& ui, const Place& place) {
-  const Drawn* drawn = session.drawn();
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (!ui.inspector || drawn == nullptr || !drawn->left.layers || !place.holds(mouse) ||
-      ImGui::GetIO().WantCaptureMouse)
-    return;
-  const int x =
-      std::clamp(int((mouse.x - place.low.x) / place.size.x * float(drawn->width)), 0, drawn->width - 1);
-  const int y =
-      std::clamp(int((mouse.y - place.low.y) / place.size.y * float(drawn->height)), 0, drawn->height - 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10.0f * ui.scale, 8.0f * ui.scale});
-  ImGui::BeginTooltip();
-  magnified(*drawn, x, y, ui.scale);
-  inspected(*drawn, x, y);
-  ImGui::EndTooltip();
-  ImGui::PopStyleVar();
+  if (session.recording()) recordingMark(session, place, ui.scale);
 }
 
 }  // namespace gloam::view

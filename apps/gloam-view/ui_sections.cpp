@@ -13,20 +13,19 @@ namespace {
 
 void referenceControls(Session& session) {
   ReferenceChoice& choice = session.reference_choice;
-  bool anew = false;
   label("bounces", "surfaces between the first one that light meets and the one that is seen");
-  anew |= ImGui::SliderInt("##bounces", &choice.bounces, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("##bounces", &choice.bounces, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
   label("same light", "only the light that the technique computes; else all of it");
-  anew |= ImGui::Checkbox("##same", &choice.same_light);
-  if (anew) session.setSplit(Split::kReference);
+  ImGui::Checkbox("##same", &choice.same_light);
   const ReferenceView* reference = session.reference();
   if (reference == nullptr) return dim("begins when the picture stands still");
+  if (!reference->layers) return;
   if (!ImGui::BeginTable("errors", 2)) return;
   valueRow("samples a pixel", std::to_string(reference->samples));
-  valueRow("its noise", fmt::format("{:.2f} %", reference->noise * 100.0));
+  valueRow("its noise", percent(reference->noise, 2));
   if (reference->error) {
     const Metrics& e = *reference->error;
-    valueRow("relative RMSE", fmt::format("{:.2f} %", e.relative_rmse * 100.0));
+    valueRow("relative RMSE", percent(e.relative_rmse, 2));
     valueRow("gained or lost", fmt::format("{:+.2f} %", e.relative_signed_error * 100.0));
     valueRow("FLIP", fmt::format("{:.3f}", e.flip));
     valueRow("SSIM", fmt::format("{:.3f}", e.ssim));
@@ -102,16 +101,16 @@ void objectSection(Session& session, UiState& ui) {
   if (ImGui::Combo("##handles", &turns, "move\0turn\0")) ui.turns = turns == 1;
   if (!session.state.scene) return;
   const LoadedScene& loaded = *session.state.scene;
-  if (session.selected_node != kNone) {
-    ImGui::TextUnformatted(nodeName(loaded.scene, session.selected_node).c_str());
+  if (session.selectedNode() != kNone) {
+    ImGui::TextUnformatted(nodeName(loaded.scene, session.selectedNode()).c_str());
   } else {
     dim("Click a thing in the picture, or choose a light.");
   }
   for (const int node : loaded.light_nodes) {
     const std::string text = fmt::format("light: {}##{}", nodeName(loaded.scene, node), node);
-    if (ImGui::Selectable(text.c_str(), session.selected_node == node)) session.selected_node = node;
+    if (ImGui::Selectable(text.c_str(), session.selectedNode() == node)) session.choose(node);
   }
-  if (!session.state.edits.empty() && ImGui::Button("Put everything back")) session.resetEdits();
+  if (!session.state.moves.empty() && ImGui::Button("Put everything back")) session.resetMoves();
 }
 
 void timesSection(Session& session, UiState& ui) {
@@ -133,6 +132,7 @@ void timesSection(Session& session, UiState& ui) {
     ui.copied = cli::jsonText(session.history().json(*drawn, session.scene_name, ui.ui_device_ms));
     session.say("times are on the clipboard");
   }
+  noteControl(ui, "copy_times");
 }
 
 void saveSection(Session& session, UiState& ui) {

@@ -1,6 +1,9 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "ui.h"
@@ -125,15 +128,24 @@ void dim(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void fittedLine(const std::string& text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return ImGui::TextUnformatted(text.c_str());
+std::string fitted(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string cut = text;
   do {
     while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80) cut.pop_back();
     if (!cut.empty()) cut.pop_back();  // a whole letter
   } while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width);
-  ImGui::TextUnformatted((cut + "…").c_str());
-  if (ImGui::IsItemHovered()) helpMark(text.c_str());
+  return cut + "…";
+}
+
+void fittedLine(const std::string& text, float width) {
+  const std::string shown = fitted(text, width);
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown != text && ImGui::IsItemHovered()) helpMark(text.c_str());
+}
+
+std::string percent(double share, int digits) {
+  return std::isfinite(share) ? fmt::format("{:.{}f} %", share * 100.0, digits) : "–";
 }
 
 void noteControl(UiState& ui, const std::string& name) {

@@ -8,10 +8,10 @@
 #include <gloam/renderer.h>
 #include <gloam/spheres.h>
 
-#include <map>
 #include <memory>
 #include <string>
 
+#include "node_moves.h"
 #include "technique_needs.h"
 
 namespace gloam::view {
@@ -27,12 +27,6 @@ struct LoadedScene {
 };
 /// Fills in what follows from the scene.
 std::shared_ptr<const LoadedScene> makeLoadedScene(std::string name, bool ground, Scene scene);
-
-/// How a hand moved a node: a motion of the world, on top of where scene and animation put it.
-struct NodeEdit {
-  glm::mat4 world_from_placed{1.0f};
-};
-using NodeEdits = std::map<int, NodeEdit>;
 
 /// A technique with its options.
 struct Pick {
@@ -52,7 +46,7 @@ struct ViewState {
   std::shared_ptr<const DistantLight> base;  ///< light from afar, before it is turned and scaled
   float env_rotation_deg = 0.0f, env_intensity = 1.0f;
   AnimatedLights lights;
-  NodeEdits edits;
+  cli::NodeMoves moves;  ///< by a hand
   float time_s = 0.0f;
   PosedCamera camera;
   Pick left, right;
@@ -65,12 +59,6 @@ struct ViewState {
   DisplayOptions display;
 };
 
-/// All motions of a node and of those above it, together; the identity for kNone.
-glm::mat4 motionOf(const Scene& scene, const NodeEdits& edits, int node);
-/// Moves a node on, in the world.
-void moveNode(const Scene& scene, NodeEdits& edits, int node, const glm::mat4& motion);
-/// The scene at its time, moved as the hand moved it.
-PosedScene poseEdited(const LoadedScene& loaded, const NodeEdits& edits, float time_s);
 /// Middles of all instances as they stand.
 std::vector<glm::vec3> instancePlaces(const LoadedScene& loaded, const PosedScene& posed);
 /// The light at its time, turned and scaled: described, for the renderer, in microseconds.

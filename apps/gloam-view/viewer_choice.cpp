@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "camera_control.h"
+#include "file_names.h"
 #include "settings_file.h"
 #include "view_state.h"
 
@@ -52,6 +53,7 @@ void declare(CLI::App& app, ViewerChoice& choice) {
   cli::addSceneOptions(app, choice.scene);
   cli::addLightOptions(app, choice.light);
   cli::addViewOptions(app, choice.view);
+  cli::addMoveOption(app, choice.moves);
   app.get_option("--size")
       ->description("of the window, in pixels")
       ->default_str(fmt::format("{}x{}", kDefaultWidth, kDefaultHeight));
@@ -87,6 +89,7 @@ ViewerChoice parseArguments(const std::vector<std::string>& arguments, std::stri
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // CLI11 takes them from the back
   try {
     app.parse(std::move(reversed));
+    choice->scene_given = app.get_option("SCENE")->count() > 0;
   } catch (const CLI::CallForHelp&) {
     *help = app.help();
   } catch (const CLI::ParseError& error) {
@@ -105,18 +108,15 @@ void writePreset(const std::string& file, const ViewState& state, const CameraCo
   cli::Json json;
   const int width = std::max(state.width, 1), height = std::max(state.height, 1);
   json["size"] = fmt::format("{}x{}", width, height);
-  if (!environment.empty()) json["env"] = environment;
+  if (state.scene) {
+    json["scene"] = wholeName(state.scene->name);
+    if (state.scene->ground) json["ground"] = true;
+    if (!state.moves.empty()) json["move"] = cli::moveTexts(state.scene->scene, state.moves);
+  }
+  if (!environment.empty()) json["env"] = wholeName(environment);
   json["env_rotation"] = cli::shortest(state.env_rotation_deg);
   json["env_intensity"] = cli::shortest(state.env_intensity);
-  if (lights.size() == 1) json["light"] = lights.front();
-  if (lights.size() > 1) {  // an option stands once: several go into a list of their own
-    const std::string list = std::filesystem::absolute(file + ".lights.json").string();
-    const std::string texts = cli::jsonText(cli::Json(lights)) + "\n";
-    AtomicFile beside(list);
-    beside.write(texts.data(), texts.size());
-    beside.commit();
-    json["light"] = list;
-  }
+  if (!lights.empty()) json["light"] = lights;
   json["eye"] = vectorText(camera.eye());
   json["target"] = vectorText(camera.target());
   if (camera.camera().perspective) {
@@ -127,6 +127,7 @@ void writePreset(const std::string& file, const ViewState& state, const CameraCo
   json["exposure"] = cli::shortest(state.display.exposure_stops);
   json["tone_map"] = state.display.tone_map == ToneMap::kAces ? "aces" : "none";
   json["background"] = state.background;
+  if (state.supersample > 1) json["supersample"] = state.supersample;
   if (!state.show.empty()) json["show"] = state.show;
   json["technique"] = state.left.info->name;
   json[state.left.info->name] = ownType(state.left);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "display_choice.h"
+#include "node_moves.h"
 #include "scene_inputs.h"
 #include "technique_choice.h"
 
@@ -20,8 +21,10 @@ inline constexpr const char* kShaderFolder = "";
 
 struct ViewerChoice {
   cli::SceneChoice scene{.name = "builtin:cornell"};
+  bool scene_given = false;
   cli::LightChoice light;
   cli::ViewChoice view;
+  std::vector<cli::MoveText> moves;
   cli::TechniqueChoice technique;
   cli::DisplayChoice display;
   std::string device, show;

@@ -12,6 +12,7 @@
 #include "frame_plan.h"
 #include "json.h"
 #include "light_parts.h"
+#include "node_moves.h"
 #include "output.h"
 #include "scene_inputs.h"
 #include "settings_file.h"
@@ -31,6 +32,7 @@ struct ReferenceChoice {
   LightChoice light;
   LightParts parts;
   ViewChoice view;
+  std::vector<MoveText> moves;
   MotionChoice motion;
   DisplayChoice display;
   ReferenceOptions options;
@@ -44,6 +46,7 @@ struct ReferenceChoice {
 /// What all frames have in common.
 struct Stage {
   Scene scene;
+  NodeMoves moves;
   Environment environment;  ///< without --light
   std::string environment_name;
   LightChoice light;
@@ -102,6 +105,7 @@ ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, 
 Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame>& frames, Console& console) {
   Stage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
+  stage.moves = movesIn(stage.scene, choice.moves);
   if (carriesVolumes(stage.scene))
     console.remark(
         fmt::format("{} left out: paths know surfaces alone, no volumes", volumeNames(stage.scene)));
@@ -139,7 +143,7 @@ Progress progressOf(std::size_t frame, std::size_t frames, Console& console) {
 
 LayeredImage renderFrame(const Stage& stage, const PlannedFrame& frame, bool parts, const Progress& progress,
                          Total& total) {
-  const PosedScene posed = pose(stage.scene, frame.time_s);
+  const PosedScene posed = poseMoved(stage.scene, stage.moves, frame.time_s);
   const PosedCamera camera = orbit(stage.camera, posed, frame.orbit_rad);
   const fs::path& checkpoint = stage.goal.checkpoint;
   ReferenceReport report;
@@ -276,6 +280,7 @@ std::function<int()> declareReference(CLI::App& app, Console& console) {
   addLightOptions(app, choice->light);
   addLightParts(app, choice->parts);
   addViewOptions(app, choice->view);
+  addMoveOption(app, choice->moves);
   addMotionOptions(app, choice->motion);
   addDisplayOptions(app, choice->display);
   app.add_flag("--parts", choice->separate,

@@ -13,6 +13,7 @@
 #include "display_choice.h"
 #include "emission_run.h"
 #include "frame_plan.h"
+#include "node_moves.h"
 #include "output.h"
 #include "scene_inputs.h"
 #include "settings_file.h"
@@ -30,6 +31,7 @@ struct RenderChoice {
   SceneChoice scene;
   LightChoice light;
   ViewChoice view;
+  std::vector<MoveText> moves;
   MotionChoice motion;
   TechniqueChoice technique;
   DisplayChoice display;
@@ -44,6 +46,7 @@ std::string defaultOutput(const RenderChoice& choice) {
 /// All that a frame needs, apart from what moves.
 struct Stage {
   Scene scene;
+  NodeMoves moves;
   const TechniqueInfo* technique = nullptr;
   DistantLight base;  ///< light without --light
   PosedCamera camera;
@@ -53,6 +56,7 @@ struct Stage {
 Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& console) {
   Stage stage;
   stage.scene = loadSceneToDraw(choice.scene, console);
+  stage.moves = movesIn(stage.scene, choice.moves);
   stage.technique = &chooseTechnique(choice.technique, stage.scene);
   stage.options.settings = settingsFor(*stage.technique, choice.technique);
   stage.base = mapLight(chooseBaseEnvironment(stage.scene, choice.light, console));
@@ -67,6 +71,7 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   }
   if (stage.technique->needs_bake && !carriesTransfer(stage.scene)) {
     stage.scene = bakeForDrawing(stage.scene, choice.scene.name, first_time_s, choice.use_cache, console);
+    stage.moves = movesIn(stage.scene, choice.moves);  // copies that became nodes count, too
   }
   stage.options.width = choice.view.size.x;
   stage.options.height = choice.view.size.y;
@@ -135,7 +140,7 @@ int runRender(RenderChoice choice, Console& console) {
       throw Interrupted(fmt::format("interrupted; {} of {} frames are written", i, frames.size()));
     }
     progress.report(double(i) / double(frames.size()), fmt::format("frame {} of {}", i + 1, frames.size()));
-    const PosedScene posed = pose(stage.scene, frames[i].time_s);
+    const PosedScene posed = poseMoved(stage.scene, stage.moves, frames[i].time_s);
     const PosedCamera camera = orbit(stage.camera, posed, frames[i].orbit_rad);
     if (i == 0 || choice.motion.turn_sky_deg != 0.0f || choice.light.lights.moves()) {
       DistantLight turned = stage.base;
@@ -170,6 +175,7 @@ std::function<int()> declareRender(CLI::App& app, Console& console) {
             "x.png, x.exr, x.hdr, x.mp4, x_####.png, or a folder of frames; by default the scene's name");
   addLightOptions(app, choice->light);
   addViewOptions(app, choice->view);
+  addMoveOption(app, choice->moves);
   addMotionOptions(app, choice->motion);
   addSkyMotion(app, choice->motion);
   addTechniqueOptions(app, choice->technique);

@@ -26,23 +26,38 @@ std::string valueText(const std::string& place, const Json& value) {
   throw Error(place, "expected a string, a number, true or false");
 }
 
+/// A list where the option may stand several times.
+std::vector<std::string> valueTexts(const std::string& place, const Json& value, bool several) {
+  if (!several || !value.is_array()) return {valueText(place, value)};
+  std::vector<std::string> texts;
+  for (const Json& one : value) texts.push_back(valueText(place, one));
+  return texts;
+}
+
+/// The scene stands without a name of its own.
+CLI::Option* optionOf(CLI::App& app, const std::string& name) {
+  if (name == "settings" || name == "help") return nullptr;
+  return app.get_option_no_throw(name == "scene" ? "SCENE" : "--" + name);
+}
+
 void setOption(CLI::App& app, const std::string& file, const std::string& key, const Json& value) {
   std::string name = key;
   if (key.find('.') == std::string::npos) std::replace(name.begin(), name.end(), '_', '-');
   const std::string place = fmt::format("{}: {}", file, key);
-  CLI::Option* option = name == "settings" || name == "help" ? nullptr : app.get_option_no_throw("--" + name);
+  CLI::Option* option = optionOf(app, name);
   if (option == nullptr) throw Error(place, fmt::format("{} has no such option", app.get_name()));
   if (option->count() > 0) return;
-  const std::string text = valueText(place, value);
+  const std::vector<std::string> texts = valueTexts(place, value, option->get_items_expected_max() > 1);
+  if (texts.empty()) return;
   try {
-    option->add_result(text);
+    for (const std::string& text : texts) option->add_result(text);
     option->run_callback();
   } catch (const Error& error) {
     throw Error(file, error.what());
   } catch (const CLI::ParseError&) {
     const bool flag = option->get_expected_min() == 0;
-    throw Error(place,
-                fmt::format("'{}': expected {}", text, flag ? "true or false" : option->get_type_name()));
+    throw Error(place, fmt::format("'{}': expected {}", texts.front(),
+                                   flag ? "true or false" : option->get_type_name()));
   }
 }
 

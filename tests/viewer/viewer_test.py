@@ -135,8 +135,8 @@ class ViewerTest(unittest.TestCase):
     # ---- pictures --------------------------------------------------------------------------------------------------
 
     def test_screenshots_show_what_render_draws(self):
-        self.succeed(BOX, *SMALL, "--no-panel", "--scale", "1", "--screenshot", "view.png", "--frames", "2")
-        self.succeed(BOX, *SMALL, "--no-panel", "--scale", "0.5", "--screenshot", "view.exr")
+        self.succeed(BOX, *SMALL, "--screenshot", "view.png", "--frames", "2")  # of that size, without the panels
+        self.succeed(BOX, *SMALL, "--scale", "0.5", "--screenshot", "view.exr")
         subprocess.run([GLOAM, "render", BOX, "--size", "640x420", "-o", "render.png", "--quiet"], cwd=self.folder,
                        env=self.environment, check=True, timeout=60)
         width, height, view = png_size_and_rows(self.folder / "view.png")
@@ -148,7 +148,8 @@ class ViewerTest(unittest.TestCase):
             self.assertLess(differing, len(view_bytes) // 7 // 100)
         info = subprocess.run([GLOAM, "info", "view.exr", "--json"], cwd=self.folder, env=self.environment,
                               capture_output=True, text=True, check=True, timeout=60)
-        self.assertIn("indirect", info.stdout)
+        for layer in ["indirect", "normal", "object"]:
+            self.assertIn(layer, info.stdout)
 
     def test_presets_go_to_render_and_back(self):
         self.script([
@@ -168,6 +169,41 @@ class ViewerTest(unittest.TestCase):
                               cwd=self.folder, env=self.environment, capture_output=True, text=True, check=False, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["settings"]["order"], 4)
+
+    def test_what_was_moved_is_in_the_preset(self):
+        """`gloam render --settings preset.json` alone draws what the viewer shows."""
+        self.script([
+            {"wait": "idle"}, {"click": [320, 51]}, {"wait": "idle"}, {"drag": [320, 51, 380, 90]}, {"wait": "idle"},
+            {"click": [270, 290]}, {"wait": "idle"}, {"key": "g"}, {"wait": 2}, {"stats": "box.json"}, {"key": "g"}, {"wait": 2},
+            {"drag": [270, 290, 300, 280]}, {"key": "escape"}, {"wait": "idle"},
+            {"stats": "moved.json"}, {"save_preset": "preset.json"}, {"screenshot": "view.png"},
+            {"drop": "preset.json"}, {"wait": "idle"}, {"stats": "loaded.json"},
+            {"set": {"scene": "builtin:lamp?detail=0.25"}}, {"wait": "idle"}, {"drop": "preset.json"}, {"wait": "idle"},
+            {"stats": "back.json"}], BOX, *SMALL, "--no-panel", "--scale", "1")
+        preset = json.loads((self.folder / "preset.json").read_text())
+        self.assertEqual(preset["scene"], BOX)
+        self.assertEqual(len(preset["move"]), self.stats("moved.json")["moves"])
+        self.assertGreaterEqual(len(preset["move"]), 1)
+        for name in ["loaded", "back"]:
+            self.assertEqual(self.stats(f"{name}.json")["moves"], len(preset["move"]))
+        self.assertEqual(self.stats("back.json")["scene"], BOX)
+        subprocess.run([GLOAM, "render", "--settings", "preset.json", "-o", "render.png", "--quiet"], cwd=self.folder,
+                       env=self.environment, check=True, timeout=60)
+        view, render = (png_size_and_rows(self.folder / f"{n}.png") for n in ("view", "render"))
+        self.assertEqual(view[:2], render[:2])
+        pairs = [(a, b) for u, v in zip(view[2], render[2]) for a, b in zip(u, v)]
+        self.assertLess(sum(abs(a - b) > 2 for a, b in pairs), len(pairs) // 200)
+        subprocess.run([GLOAM, "render", BOX, "--size", "640x420", "-o", "still.png", "--quiet"], cwd=self.folder,
+                       env=self.environment, check=True, timeout=60)
+        self.assertNotEqual(png_size_and_rows(self.folder / "still.png")[2], render[2])
+
+    def test_keys_overwrite_nothing(self):
+        keys = [{"key": "f2"}, {"wait": 2}, {"key": "f5"}, {"wait": 2}]
+        self.script([{"wait": "idle"}, *keys, {"set": {"exposure": 1}}, {"wait": "idle"}, *keys, {"set": {"exposure": 3}},
+                     {"key": "f9"}, {"wait": "idle"}, {"stats": "end.json"}], BOX, *SMALL, "--scale", "0.2")
+        for name in ["gloam.png", "gloam_2.png", "preset.json", "preset_2.json"]:
+            self.assertTrue((self.folder / name).exists(), name)
+        self.assertEqual(self.stats("end.json")["exposure"], 1)
 
     def test_videos_and_recent_files(self):
         self.script([
@@ -193,7 +229,9 @@ class ViewerTest(unittest.TestCase):
             {"wait": "idle"},
             {"drop": "no.glb"}, {"wait": "idle"}, {"drop": "no.json"}, {"drop": "no.hdr"}, {"wait": "idle"},
             {"stats": "bad.json"}, {"drop": "lamp.glb"}, {"wait": "idle"}, {"stats": "good.json"},
-            {"resize": [1, 1]}, {"wait": 10}, {"resize": [3840, 2160]}, {"set": {"scale": 0.1}}, {"wait": "idle"},
+            {"resize": [1, 1]}, {"wait": "idle"}, {"resize": [40, 40]}, {"wait": "idle"}, {"resize": [640, 420]}, {"wait": 3},
+            {"wait": "idle"}, {"stats": "grown.json"},
+            {"resize": [3840, 2160]}, {"set": {"scale": 0.1}}, {"wait": "idle"},
             {"window_screenshot": "large.png"}, {"resize": [640, 420]}, {"wait": "idle"},
             {"minimise": True}, {"wait": 5}, {"restore": True}, {"wait": "idle"},
             {"lose_device": True}, {"wait": 3}, {"wait": "idle"}, {"lose_window": True}, {"wait": 3}, {"wait": "idle"},
@@ -203,6 +241,7 @@ class ViewerTest(unittest.TestCase):
             self.assertIn(name, bad)
         self.assertEqual(self.stats("bad.json")["scene"], BOX)
         self.assertEqual(self.stats("good.json")["scene"], "lamp.glb")
+        self.assertEqual(self.stats("grown.json")["scale"], 1.0)  # small windows teach nothing wrong
         data = (self.folder / "large.png").read_bytes()
         self.assertEqual(struct.unpack(">II", data[16:24]), (3840, 2160))
         said = "\n".join(self.stats("end.json")["messages"])
@@ -288,6 +327,29 @@ class ViewerTest(unittest.TestCase):
         self.script([{"wait": "idle"}, {"click": [x, y]}, {"wait": "idle"}, {"stats": "clicked.json"}], *window)
         self.assertGreaterEqual(self.stats("clicked.json")["selected"], 0)
 
+    def test_times_are_copied_as_json(self):
+        window = [BOX, "--size", "1100x900", "--scale", "0.1"]
+        self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "closed.json"}], *window)
+        x, y, _, _ = self.stats("closed.json")["controls"]["times"]
+        unfold = [{"wait": "idle"}, {"click": [x + 30, y + 8]}, {"mouse": [x + 30, y - 40]}, {"scroll": -100}, {"wait": 5}]
+        self.script([*unfold, {"stats": "open.json"}], *window)
+        x, y, width, height = self.stats("open.json")["controls"]["copy_times"]
+        self.script([*unfold, {"click": [x + width / 2, y + height / 2]}, {"wait": 3}, {"clipboard": "copied.json"},
+                     {"stats": "stats.json"}], *window)
+        copied, stats = self.stats("copied.json"), self.stats("stats.json")
+        for key in ["device", "technique", "scene", "size", "memory_bytes"]:
+            self.assertEqual(copied[key], stats[key], key)
+        self.assertGreater(copied["frame_ms"], 0.0)
+        self.assertEqual([p["name"] for p in copied["passes"]], [p["name"] for p in stats["passes"]])
+        self.assertIn("times are on the clipboard", stats["messages"])
+
+    def test_scripts_do_not_wait_for_what_never_comes(self):
+        (self.folder / "steps.json").write_text(json.dumps([
+            {"wait": "idle"}, {"mouse": [200, 200]}, {"press": "left"}, {"wait": 2}, {"mouse": [230, 200]}, {"wait": "idle"},
+            {"release": "left"}, {"wait": "idle"}, {"key": "space"}, {"wait": 3}, {"wait": "idle"}]))
+        self.refuse("builtin:walker?detail=0.25", *SMALL, "--scale", "0.2", "--script", "steps.json",
+                    says="steps[10]: nothing stands still while the animation plays")
+
     # ---- switching ---------------------------------------------------------------------------------------------------
 
     def test_switching_leaks_nothing(self):
@@ -328,13 +390,44 @@ class ViewerTest(unittest.TestCase):
             {"drag": [600, 300, 560, 300]}, {"wait": "idle"}, {"stats": "camera.json"}],
             BOX, *SMALL, "--no-panel", "--scale", "0.3")
         lamp, box, camera = self.stats("lamp.json"), self.stats("box.json"), self.stats("camera.json")
-        self.assertEqual(lamp["edits"], 1)
-        self.assertEqual(camera["edits"], 1)  # a drag beside the handles turns the camera
+        self.assertEqual(lamp["moves"], 1)
+        self.assertEqual(camera["moves"], 1)  # a drag beside the handles turns the camera
         self.assertNotEqual(camera["camera"], box["camera"])
         self.assertEqual(box["camera"], lamp["camera"])
         self.assertNotEqual(box["selected"], lamp["selected"])
         self.assertGreaterEqual(box["selected"], 0)
         self.assertNotEqual(png_size_and_rows(self.folder / "before.png"), png_size_and_rows(self.folder / "lamp.png"))
+
+    def test_a_dot_moves_in_the_plane_of_the_view_and_escape_puts_back(self):
+        hold = [{"mouse": [320, 51]}, {"press": "left"}, {"wait": 2}, {"mouse": [360, 90]}, {"wait": "idle"}]
+        self.script([
+            {"wait": "idle"}, {"click": [320, 51]}, {"wait": "idle"}, {"screenshot": "before.png"},
+            *hold, {"stats": "held.json"}, {"key": "escape"}, {"wait": "idle"}, {"stats": "back.json"},
+            {"mouse": [400, 200]}, {"wait": "idle"}, {"release": "left"}, {"wait": "idle"}, {"stats": "after.json"},
+            {"screenshot": "after.png"}, *hold, {"release": "left"}, {"wait": "idle"}, {"stats": "moved.json"}],
+            BOX, *SMALL, "--scale", "0.3", "--no-panel")
+        held, back, after, moved = (self.stats(f"{n}.json") for n in ("held", "back", "after", "moved"))
+        self.assertEqual((held["moves"], back["moves"], after["moves"], moved["moves"]), (1, 0, 0, 1))
+        for stats in (held, moved):
+            (x, y), = stats["light_marks"]
+            self.assertAlmostEqual(x, 360, delta=1.0)
+            self.assertAlmostEqual(y, 90, delta=1.0)
+        self.assertEqual(after["camera"], held["camera"])  # a handle let go is not the camera's
+        self.assertGreaterEqual(after["selected"], 0)
+        self.assertEqual(png_size_and_rows(self.folder / "before.png"), png_size_and_rows(self.folder / "after.png"))
+
+    def test_what_is_selected_has_a_line_round_it(self):
+        self.script([
+            {"wait": "idle"}, {"wait": 3}, {"window_screenshot": "before.png"}, {"screenshot": "picture.png"},
+            {"click": [270, 290]}, {"wait": "idle"}, {"mouse": [5, 5]}, {"wait": 3}, {"window_screenshot": "selected.png"},
+            {"screenshot": "again.png"}, {"key": "escape"}, {"wait": "idle"}, {"wait": 3}, {"window_screenshot": "none.png"}],
+            BOX, *SMALL, "--scale", "0.5", "--no-panel")
+        line = lambda name: sum(row[i] > 230 and 190 < row[i + 1] < 235 and row[i + 2] < 130
+                                for row in png_size_and_rows(self.folder / name)[2] for i in range(0, len(row), 3))
+        self.assertLess(line("before.png"), 40)
+        self.assertGreater(line("selected.png"), 300)
+        self.assertLess(line("none.png"), 40)
+        self.assertEqual(png_size_and_rows(self.folder / "picture.png"), png_size_and_rows(self.folder / "again.png"))
 
     def test_an_input_is_shown_within_two_pictures(self):
         """Whatever moves: pictures are counted from an input to the first one that shows it."""
@@ -358,11 +451,18 @@ class ViewerTest(unittest.TestCase):
     def test_reference_refines_and_measures(self):
         self.script([
             {"wait": "idle"}, {"set": {"reference_samples": 4, "split": "reference"}}, {"wait": "reference"},
-            {"stats": "reference.json"}, {"set": {"split": "none", "show": "normal"}}, {"wait": "idle"},
-            {"screenshot": "normal.png"}], BOX, *SMALL, "--scale", "0.2")
-        reference = self.stats("reference.json")["reference"]
+            {"stats": "reference.json"}, {"set": {"exposure": 2}}, {"key": "i"}, {"wait": "idle"}, {"set": {"show": "normal"}},
+            {"wait": "idle"}, {"set": {"show": "", "irradiance.order": 2}}, {"wait": "idle"}, {"wait_s": 0.5},
+            {"stats": "same.json"}, {"set": {"env_rotation": 30}}, {"wait": 2}, {"stats": "dropped.json"},
+            {"set": {"split": "none", "show": "normal"}}, {"wait": "idle"},
+            {"screenshot": "normal.png"}], BOX, *SMALL, "--scale", "0.2", "--technique", "irradiance")
+        reference, same = (self.stats(f"{n}.json")["reference"] for n in ("reference", "same"))
         self.assertGreaterEqual(reference["samples"], 4)
         self.assertGreater(reference["relative_rmse"], 0.0)
+        for key in ["samples", "seconds", "noise"]:  # exposure, inspector, what is shown and options: the same samples
+            self.assertEqual(reference[key], same[key], key)
+        self.assertNotEqual(reference["relative_rmse"], same["relative_rmse"])  # measured against the new picture
+        self.assertNotIn("reference", self.stats("dropped.json"))  # the light has turned
         self.assertTrue((self.folder / "normal.png").exists())
 
     # ---- shaders ---------------------------------------------------------------------------------------------------------
