@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSearchVersion = 6;  // to be raised when the same options give other spheres
+constexpr int kSearchVersion = 7;  // to be raised when the same options give other spheres
 
 /// Changes with anything in the scene but its environment, with every option that changes the result, and with the version.
 std::string keyOf(const Scene& scene, const SphereOptions& options) {

@@ -45,7 +45,7 @@ void fit(Object& object, const SphereOptions& options, const Scene& scene, const
       solid,
       {object.count, options.seed, options.samples, options.effort, motion.moved.empty() ? nullptr : &motion},
       progress);
-  const spheres::Measured measured = measureBalls(solid, balls, options.seed);
+  const spheres::Measured measured = measureBalls(solid, balls, options.seed, progress);
   SphereSet& set = object.set;
   const double unit3 = double(solid.scale) * double(solid.scale) * double(solid.scale);
   set.figures = {measured.volume * unit3, measured.outside_sum * unit3, measured.outside_union * unit3,

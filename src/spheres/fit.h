@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "math/sampling.h"
@@ -33,7 +34,9 @@ struct FitPoints {
 /// Not thread-safe; several fits may share occupancy and points. All that happens follows from (seed, stream).
 class Fit {
  public:
-  Fit(const Occupancy& occupancy, const FitPoints& points, std::uint32_t seed, std::uint32_t stream);
+  /// `should_stop` is asked every few milliseconds; then what runs throws Interrupted.
+  Fit(const Occupancy& occupancy, const FitPoints& points, std::uint32_t seed, std::uint32_t stream,
+      std::function<bool()> should_stop = {});
 
   /// Clusters of points (k-means++, Lloyd), a ball round each.
   void startFromClusters(int count);
@@ -41,9 +44,11 @@ class Fit {
   void startFrom(const std::vector<Ball>& balls);
 
   /// Tries moves; one that makes the sum worse is kept while it stays within `tolerance` (relative) of the sum before, which
-  /// sinks evenly from `tolerance_begin` to `tolerance_end`.
-  void run(int moves, float tolerance_begin, float tolerance_end);
+  /// sinks evenly from `tolerance_begin` to `tolerance_end`. Ends after `moves`, or where so many points were looked at: a bound
+  /// of time that is the same on any machine.
+  void run(int moves, float tolerance_begin, float tolerance_end, std::uint64_t most_looks = ~0ull);
 
+  std::uint64_t looks() const { return looks_; }  ///< at points, so far: a measure of the work
   /// Sum of the balls' volumes outside the solid, of the best state so far; with what motion adds to them.
   double cost() const { return best_.cost; }
   /// The best state so far; balls that hold nothing by themselves have radius 0.
@@ -88,12 +93,15 @@ class Fit {
   void splitBetween(const Points& points, std::size_t a, std::size_t b);
   double sum() const;
   void keepIfBest();
+  void stopIfAsked() const;
 
   const Occupancy& occupancy_;
   const FitPoints& points_;
   sampling::Rng random_;
   State now_, best_;
   FitPoints required_;  ///< scratch: what the ball in hand must hold
+  std::function<bool()> should_stop_;
+  mutable std::uint64_t looks_ = 0;
 };
 
 }  // namespace gloam::spheres

@@ -13,9 +13,10 @@ namespace gloam::spheres {
 namespace {
 
 constexpr int kEvaluations = 50;
-constexpr float kSmallestStep = 0.005f;  // of the radius
-constexpr float kBoundingShell = 0.97f;  // of the radius: points beyond it decide where the ball can go
-constexpr float kSlack = 1.0f + 1e-5f;   // a point that sets the radius stays inside, whatever the rounding
+constexpr float kSmallestStep = 0.005f;     // of the radius
+constexpr float kBoundingShell = 0.97f;     // of the radius: points beyond it decide where the ball can go
+constexpr std::uint64_t kChordLooks = 256;  // what the volume outside takes, in looks at a point
+constexpr float kSlack = 1.0f + 1e-5f;  // a point that sets the radius stays inside, whatever the rounding
 
 constexpr float kMostStrain = 2.0f;  // spread over spread at rest: beyond, the ball is useless anyway
 
@@ -94,6 +95,7 @@ float Fit::requiredRadius(const glm::vec3& c) const {
 }
 
 float Fit::price(const glm::vec3& center, float& radius) const {
+  looks_ += required_.count() + kChordLooks;
   radius = requiredRadius(center);
   return occupancy_.outsideVolume(center, radius);
 }
@@ -150,6 +152,7 @@ Ball Fit::tightest(glm::vec3 center, float step, float& outside) const {
 void Fit::countCover(const Ball& ball, int by) {
   const float r2 = ball.radius * ball.radius;
   const std::size_t count = points_.count();
+  looks_ += count;
   const float *x = points_.x.data(), *y = points_.y.data(), *z = points_.z.data();
   std::uint16_t* cover = now_.cover.data();
   const glm::vec3 c = ball.center;
@@ -163,6 +166,7 @@ Fit::Points Fit::ownedBy(std::size_t ball) const {
   const glm::vec3 c = now_.balls[ball].center;
   const float r2 = now_.balls[ball].radius * now_.balls[ball].radius;
   Points owned;
+  looks_ += points_.count();
   for (std::size_t i = 0; i < points_.count(); ++i) {
     if (now_.cover[i] != 1) continue;
     const float dx = points_.x[i] - c.x, dy = points_.y[i] - c.y, dz = points_.z[i] - c.z;
@@ -212,6 +216,7 @@ void Fit::replaceWithBest(std::size_t ball, const Points& required) {
 }
 
 void Fit::refit(std::size_t ball, const Points& more) {
+  stopIfAsked();
   Points required = ownedBy(ball);
   for (const std::uint32_t i : more) {
     if (now_.cover[i] == 0) required.push_back(i);

@@ -5,6 +5,8 @@
 // is bound only to the points that no other holds, so fitting one after another cannot raise the sum; teleporting,
 // dividing a pair anew and shedding a cap are random moves, kept while they stay near the best (threshold accepting,
 // Dueck and Scheuer 1990).
+#include <gloam/error.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,9 +20,14 @@ constexpr int kTournament = 3;
 
 }  // namespace
 
-Fit::Fit(const Occupancy& occupancy, const FitPoints& points, std::uint32_t seed, std::uint32_t stream)
-    : occupancy_(occupancy), points_(points), random_(seed, stream) {
+Fit::Fit(const Occupancy& occupancy, const FitPoints& points, std::uint32_t seed, std::uint32_t stream,
+         std::function<bool()> should_stop)
+    : occupancy_(occupancy), points_(points), random_(seed, stream), should_stop_(std::move(should_stop)) {
   now_.cover.assign(points.count(), 0);
+}
+
+void Fit::stopIfAsked() const {
+  if (should_stop_ && should_stop_()) throw Interrupted("interrupted: no sphere set");
 }
 
 // ---- Beginnings --------------------------------------------------------------------------------------------------------
@@ -31,6 +38,7 @@ void Fit::startFromClusters(int wanted) {
   std::vector<float> nearest(count, INFINITY);
   std::vector<std::uint32_t> cluster(count, 0);
   while (int(centers.size()) < wanted) {
+    stopIfAsked();
     double total = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec3 d = points_.at(i) - centers.back();
@@ -46,6 +54,7 @@ void Fit::startFromClusters(int wanted) {
     std::vector<glm::vec3> sums(centers.size(), glm::vec3(0.0f));
     std::vector<int> members(centers.size(), 0);
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % 1024 == 0) stopIfAsked();
       float least = INFINITY;
       for (std::size_t c = 0; c < centers.size(); ++c) {
         const glm::vec3 d = points_.at(i) - centers[c];
@@ -63,6 +72,7 @@ void Fit::startFromClusters(int wanted) {
   now_.outside.assign(centers.size(), 0.0f);
   now_.bound.assign(centers.size(), 0);
   for (std::size_t c = 0; c < centers.size(); ++c) {
+    stopIfAsked();
     now_.balls[c].center = centers[c];
     replaceWithBest(c, clusters[c]);
   }
@@ -80,7 +90,8 @@ void Fit::startFrom(const std::vector<Ball>& balls) {
     now_.outside[b] = occupancy_.outsideVolume(balls[b].center, balls[b].radius);
     if (balls[b].radius > 0.0f) countCover(balls[b], 1);
   }
-  for (std::size_t b = 0; b < balls.size(); ++b) {
+  for (std::size_t b = 0; b < balls.size() && !points_.moved.empty(); ++b) {
+    stopIfAsked();
     now_.outside[b] += strain(ownedBy(b)) * ballVolume(balls[b].radius);
   }
   Points orphans;
@@ -109,6 +120,7 @@ void Fit::keepIfBest() {
 void Fit::hand(const Points& orphans, std::size_t except) {
   std::vector<Points> taken(now_.balls.size());
   for (const std::uint32_t i : orphans) {
+    looks_ += now_.balls.size();
     float least = INFINITY;
     std::size_t to = 0;
     for (std::size_t b = 0; b < now_.balls.size(); ++b) {
@@ -254,14 +266,18 @@ bool Fit::shed() {
   return true;
 }
 
-void Fit::run(int moves, float tolerance_begin, float tolerance_end) {
+void Fit::run(int moves, float tolerance_begin, float tolerance_end, std::uint64_t most_looks) {
   if (now_.balls.size() < 2) {
     refit(0, {});
     keepIfBest();
     return;
   }
-  for (int move = 0; move < moves; ++move) {
-    const float tolerance = tolerance_begin + (tolerance_end - tolerance_begin) * float(move) / float(moves);
+  const std::uint64_t before_all = looks_;
+  for (int move = 0; move < moves && looks_ - before_all < most_looks; ++move) {
+    stopIfAsked();
+    const float sinks = tolerance_end - tolerance_begin;
+    const auto by_looks = float(double(looks_ - before_all) / double(most_looks));
+    const float tolerance = tolerance_begin + std::min(sinks * float(move) / float(moves), sinks * by_looks);
     const State before = now_;
     const float kind = random_.next();
     const bool changed = kind < 0.25f ? relocate() : (kind < 0.6f ? repartition() : shed());

@@ -55,6 +55,44 @@ TEST(Fit, TakesOverBallsThatHoldTooLittle) {
   expectAllHeld(task.points, fit.balls(), "after");
 }
 
+TEST(Fit, EndsAtItsBoundOfLooks) {
+  const Task task(shapes::icosphere(1.0f, 12));
+  Fit fit(*task.solid.coarse, task.points, 1, 0);
+  fit.startFromClusters(200);
+  const std::uint64_t before = fit.looks();
+  fit.run(1, 0.0f, 0.0f);
+  const std::uint64_t one = fit.looks() - before, bound = 20 * one;
+  fit.run(1000000, 0.01f, 0.0f, bound);
+  EXPECT_GT(fit.looks() - before, bound / 2);
+  EXPECT_LT(fit.looks() - before, 8 * bound);  // a move more, which may be a long one
+  expectAllHeld(task.points, fit.balls(), "after");
+}
+
+TEST(Fit, StopsWithinAMove) {
+  const Task task(shapes::icosphere(1.0f, 12));
+  int asked = 0;
+  Fit fit(*task.solid.coarse, task.points, 1, 0, [&] { return ++asked > 250; });
+  EXPECT_THROW(fit.startFromClusters(200), Interrupted);
+  EXPECT_EQ(asked, 251);
+}
+
+/// Against all balls for each piece.
+TEST(Surface, AmongManyBallsThePointsThatNoneHolds) {
+  const Solid solid = makeSolid(soupOf(shapes::torus(1.0f, 0.3f, 24, 12)));
+  sampling::Rng random(5, 1);
+  std::vector<Ball> balls;
+  for (const glm::vec3& p : sampleSurface(solid.soup, 300, 9)) {
+    balls.push_back({p, random.next() < 0.2f ? 0.0f : 0.01f + 0.06f * random.next()});
+  }
+  const std::vector<glm::vec3> missed = uncoveredPoints(solid.soup, balls, 0.02f);
+  EXPECT_GT(missed.size(), 10u);
+  for (const glm::vec3& p : missed)
+    EXPECT_FALSE(std::ranges::any_of(balls, [&](const Ball& b) { return holds(b, p); }));
+  growOver(solid.soup, balls, 0.002f);
+  EXPECT_TRUE(uncoveredPoints(solid.soup, balls, 0.002f).empty());
+  EXPECT_EQ(coveredShare(sampleSurface(solid.soup, 20000, 3), balls), 1.0);
+}
+
 TEST(Fit, FindsTheBallRoundABall) {
   const Task task(shapes::icosphere(1.0f, 12));
   Fit fit(*task.solid.coarse, task.points, 1, 0);

@@ -13,7 +13,8 @@ namespace gloam::spheres {
 struct SearchOptions {
   int count = 26;
   std::uint32_t seed = 1;
-  int samples = 4000;  ///< points of the surface that lead the search; what they miss is found and added
+  int samples =
+      4000;  ///< points of the surface that lead the search, eight a ball at least; what they miss is found and added
   float effort = 1.0f;
   const Motion* motion = nullptr;  ///< of what deforms: balls then go with parts that stay together
 };
@@ -28,7 +29,8 @@ struct Measured {
   double outside_union = 0.0;  ///< V((S_1 u S_2 u …) \ O)
   double coverage = 0.0;       ///< share of the surface inside at least one ball
 };
-/// By points of their own, not those of the search.
-Measured measureBalls(const Solid& solid, const std::vector<Ball>& balls, std::uint32_t seed);
+/// By points of their own, not those of the search. Throws Interrupted when asked to stop.
+Measured measureBalls(const Solid& solid, const std::vector<Ball>& balls, std::uint32_t seed,
+                      const Progress& progress = {});
 
 }  // namespace gloam::spheres

@@ -4,6 +4,8 @@
 // Points of a surface, and whether balls hold it.
 #pragma once
 
+#include <functional>
+
 #include "spheres/fit.h"
 
 namespace gloam::spheres {
@@ -20,10 +22,13 @@ double coveredShare(const std::vector<glm::vec3>& points, const std::vector<Ball
 
 /// Points that no ball holds. Triangles whose corners lie in one ball are held; others are divided down to edges of
 /// `finest`, and corners are tested. Of each cube of a few times that size, the point that lies farthest out.
-std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>& balls, float finest);
+/// Throws Interrupted when asked to stop.
+std::vector<glm::vec3> uncoveredPoints(const Soup& soup, const std::vector<Ball>& balls, float finest,
+                                       const std::function<bool()>& should_stop = {});
 
 /// Makes the balls hold all of the surface, for certain: pieces with edges of `finest` that lie across several balls are
 /// held by one of them after it has grown, the one that pays least for it.
-void growOver(const Soup& soup, std::vector<Ball>& balls, float finest);
+void growOver(const Soup& soup, std::vector<Ball>& balls, float finest,
+              const std::function<bool()>& should_stop = {});
 
 }  // namespace gloam::spheres
