@@ -50,7 +50,7 @@ void drawOutline(std::vector<std::uint8_t>& rgba, int width, int height,
   Mask mask(count, 0);
   for (std::size_t i = 0; i < count; ++i)
     mask[i] = ids[i] > 0 && ids[i] <= chosen.size() && chosen[ids[i] - 1] ? 1 : 0;
-  const int thick = std::clamp(height / 400, 1, 4);
+  const int thick = std::clamp(height / 250, 1, 4);
   const Mask line = widened(mask, width, height, thick);
   const Mask rim = widened(mask, width, height, thick + 1);
   constexpr std::array<std::uint8_t, 3> kLine = {255, 214, 92}, kRim = {12, 14, 18};

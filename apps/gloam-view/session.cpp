@@ -134,6 +134,7 @@ void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<co
   scene_name = state.scene->name;
   recent_.add(scene_name);
   resolution.forget();
+  measured_.clear();
   if (first && choice_.technique.name.empty()) {
     const TechniqueInfo& info = cli::chooseTechnique(choice_.technique, state.scene->scene);
     wanted[kLeft] = {&info, cli::settingsFor(info, choice_.technique)};

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <ctime>
 #include <optional>
+#include <set>
 
 #include "camera_control.h"
 #include "capture.h"
@@ -176,7 +177,7 @@ class Session {
   float grown_from_ = 0.0f;  ///< share of the window that the last one grew from
   int selected_node_ = kNone;
   bool inspects_ = false;
-  std::string measured_;  ///< what was drawn last
+  std::set<std::string> measured_;  ///< kinds of pictures that were drawn of this scene
   std::optional<glm::vec2> click_;
   std::deque<Message> messages_;
   FrameHistory history_;

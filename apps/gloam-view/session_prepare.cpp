@@ -52,6 +52,7 @@ void Session::startBake(const Pick& pick) {
         state.scene = loaded;
         state.needs = {};
         resolution.forget();
+        measured_.clear();
       }
       prepare();
       changed();

@@ -75,7 +75,7 @@ void Session::takeDrawn() {
   }
   const double frame_ms = drawn->left.frame_ms + drawn->right.frame_ms;
   const std::string kind = kindOf(drawn->technique, drawn->right_technique, drawn->show);
-  if (std::exchange(measured_, kind) == kind) {  // the first of its kind compiles shaders
+  if (!measured_.insert(kind).second) {  // the first of its kind compiles shaders
     resolution.add(kind, double(drawn->width) * drawn->height,
                    float(drawn->height) / float(std::max(height_, 1)), frame_ms);
   }

@@ -44,8 +44,11 @@ std::vector<std::string> rightNames(const Session& session) {
   const ReferenceView* reference = session.reference();
   const char* name = session.state.left.info->name;
   if (reference == nullptr && session.tracing())
-    return {fmt::format("{}: the first sample of the reference is on its way", name), name};
-  if (reference == nullptr) return {fmt::format("{}: the reference begins when it stands still", name), name};
+    return {fmt::format("{}: the first sample of the reference is on its way", name),
+            fmt::format("{}: reference to come", name), name};
+  if (reference == nullptr)
+    return {fmt::format("{}: the reference begins when it stands still", name),
+            fmt::format("{}: reference to come", name), name};
   if (!reference->layers) return {fmt::format("{}: there is no reference", name), name};
   const std::string samples =
       fmt::format("reference, {} sample{}", reference->samples, reference->samples == 1 ? "" : "s");
