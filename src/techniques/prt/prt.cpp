@@ -9,99 +9,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "math/sampling.h"
-#include "math/sh_light_parts.h"
-#include "scene/transforms.h"
 #include "shaders/prt_shaders.h"
 #include "techniques/prt/prt_glossy.h"
+#include "techniques/prt/prt_relight.h"
 
 namespace gloam::prt {
 
 namespace {
 
-/// Of the whole light; "auto" damps vertex by vertex (prt_vertices.comp.glsl).
+/// Of the whole light; "auto" damps vertex by vertex (prt_relight.cpp).
 frame::Window windowOf(const std::string& name) {
   return name == "auto" ? frame::Window::kNone : frame::windowNamed(name);
 }
 
-/// The light in each lit instance's axes is added, end to end.
-void addRotatedLights(const sh::ShRgb& light, const frame::GpuScene& scene, const TransferBuffers& transfer,
-                      std::vector<glm::vec3>& lights) {
-  for (const std::uint32_t i : transfer.litInstances()) {
-    const glm::mat3 world_from_object = rotationFactor(glm::mat3(scene.instances()[i].world_from_object));
-    const sh::ShRgb turned = sh::rotate(glm::transpose(world_from_object), light);
-    lights.insert(lights.end(), turned.coefficients().begin(), turned.coefficients().end());
-  }
-}
-
-/// How far the light rings, 0 to 1: where in some direction a colour falls short of half of its windowed self, by a share of its
-/// mean. A vertex gathers the light's bands by a weight that is nowhere negative, so that light which is high enough everywhere
-/// leaves no vertex dark: soft skies are 0 and cost nothing. It grows from there, so that light that changes changes no picture at once.
-float ringing(const sh::ShRgb& light) {
-  constexpr float kFull = 0.1f;  // of the mean
-  static const std::vector<glm::vec3> directions = sampling::fibonacciSphere(600);
-  const sh::ShRgb soft = sh::windowHann(light, float(light.order));
-  const glm::vec3 mean = glm::max(light[0] * sh::evaluate(1, {0, 1, 0})[0], glm::vec3(1e-9f));
-  glm::vec3 lack(0.0f);
-  for (const glm::vec3& d : directions) {
-    const glm::vec3 least = kLeastOfDamped * glm::max(sh::valueAt(soft, d), glm::vec3(0.0f));
-    lack = glm::max(lack, (least - sh::valueAt(light, d)) / mean);
-  }
-  return std::min(1.0f, std::max({lack.r, lack.g, lack.b}) / kFull);
-}
-
-/// Light that is damped vertex by vertex: its sharpest peak, as much of it as the light rings, and the rest.
-sh::LightParts partsOf(const sh::ShRgb& all_bands, const sh::ShRgb& light, float share) {
-  sh::LightParts parts = sh::lightParts(all_bands, light.order);
-  parts.peak *= share;
-  parts.rest = light;
-  const sh::Sh there = sh::directionalLight(light.order, parts.direction);
-  for (int i = 0; i < there.size(); ++i) parts.rest[i] -= parts.peak * there[i];
-  return parts;
-}
-
-/// Adds "prt.vertices", once a chunk; every vertex's irradiance.
-gpu::BufferRef lightVertices(gpu::FrameGraph& graph, const frame::GpuScene& scene,
-                             const TransferBuffers& transfer, const sh::ShRgb& light,
-                             const sh::ShRgb& all_bands, bool damping) {
-  const float share = damping ? ringing(light) : 0.0f;
-  const bool in_parts = share > 0.0f;
-  std::vector<glm::vec3> lights;
-  VerticesParams params{};
-  if (in_parts) {
-    const sh::LightParts parts = partsOf(all_bands, light, share);
-    addRotatedLights(parts.rest, scene, transfer, lights);
-    params.first_peak = static_cast<std::uint32_t>(lights.size());
-    addRotatedLights(sh::colored(sh::directionalLight(light.order, parts.direction), parts.peak), scene,
-                     transfer, lights);
-  } else {
-    addRotatedLights(light, scene, transfer, lights);
-  }
-  const gpu::BufferRef light_buffer = graph.upload("prt.lights", lights);
-  const auto output = graph.create("prt.vertex_light",
-                                   gpu::BufferDesc{.bytes = transfer.outputVertices() * sizeof(VertexLight)});
-  const gpu::Limits& limits = graph.device().limits();
-  for (const TransferChunk& chunk : transfer.chunks()) {
-    params.block_count = chunk.block_count;
-    const std::uint32_t groups = (chunk.block_count + kBlocksTogether - 1) / kBlocksTogether;
-    const std::uint32_t columns = std::min(groups, limits.max_group_count[0]);
-    const std::uint32_t rows = (groups + columns - 1) / columns;
-    graph.compute("prt.vertices", prt_vertices_spv)
-        .specialize("coefficients", transfer.order() * transfer.order())
-        .specialize("has_indirect", transfer.hasIndirect())
-        .specialize("half_float", transfer.options().half_float)
-        .specialize("in_parts", in_parts)
-        .read("blocks", chunk.blocks)
-        .read("transfer_direct", chunk.direct)
-        .read("transfer_indirect", chunk.indirect)
-        .read("lights", light_buffer)
-        .write("vertex_light", output)
-        .push(params)
-        .dispatch(columns, rows);
-  }
-  return output;
+bool onHost(const gpu::Device& device, const Settings& settings) {
+  const std::string choice = settings.choice("relight");
+  return choice == "host" || (choice == "auto" && device.info().software);
 }
 
 UnbakedRow unbakedRow(const sh::ShRgb& light) {
@@ -211,6 +134,7 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
                             const Settings& settings) {
   const TransferBuffers& transfer = transferFor(inputs, {.order = settings.integer("order"),
                                                          .half_float = settings.flag("half_float"),
+                                                         .on_host = onHost(device_, settings),
                                                          .chunk_bytes = chunk_bytes_});
   if (!transfer.unbakedMeshes().empty())
     inputs.warnings.push_back(fmt::format("lit without shadows, as they move or are not baked: {}",

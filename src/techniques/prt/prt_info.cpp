@@ -64,7 +64,13 @@ const TechniqueInfo& info() {
        .help = "texels a side of the cubes' faces in which local light is sampled"},
       {.name = "half_float",
        .default_value = false,
-       .help = "keep transfer as halves on the device: half the memory"}};
+       .help = "keep transfer as halves on the device: half the memory"},
+      {.name = "relight",
+       .default_value = std::string("auto"),
+       .choices = {"auto", "host", "device"},
+       .help =
+           "who multiplies diffuse transfer with distant light: the host between two passes, or a compute "
+           "pass; auto: the host for software drivers"}};
   static const TechniqueInfo info = {
       .name = "prt",
       .summary =

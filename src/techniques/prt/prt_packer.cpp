@@ -29,8 +29,12 @@ void packWords(std::span<const float> values, bool half_float, std::uint32_t* wo
 }
 
 Packer::Packer(gpu::Device& device, std::string name, std::size_t direct_words, std::size_t indirect_words,
-               std::size_t chunk_bytes)
-    : device_(device), name_(std::move(name)), direct_words_(direct_words), indirect_words_(indirect_words) {
+               std::size_t chunk_bytes, bool host_visible)
+    : device_(device),
+      name_(std::move(name)),
+      direct_words_(direct_words),
+      indirect_words_(indirect_words),
+      host_visible_(host_visible) {
   const std::size_t block_bytes = std::max(direct_words, indirect_words) * kBlockVertices * 4;
   const std::uint64_t bytes = chunk_bytes > 0 ? chunk_bytes : device.limits().max_storage_bytes;
   limit_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / block_bytes, 1, 1u << 24));
@@ -82,9 +86,17 @@ void Packer::addBlocks(const Part& part, std::uint32_t light, std::uint32_t outp
   }
 }
 
+template <class T>
+gpu::Buffer Packer::bufferOf(const char* what, const std::vector<T>& values) const {
+  gpu::Buffer buffer(device_, name_ + what,
+                     gpu::BufferDesc{.bytes = values.size() * sizeof(T), .host_visible = host_visible_});
+  buffer.upload(values);
+  return buffer;
+}
+
 void Packer::uploadValues() {
-  chunks_.back().direct = gpu::Buffer(device_, name_ + "_direct", direct_);
-  chunks_.back().indirect = gpu::Buffer(device_, name_ + "_indirect", indirect_);
+  chunks_.back().direct = bufferOf("_direct", direct_);
+  chunks_.back().indirect = bufferOf("_indirect", indirect_);
   direct_.clear();
   indirect_.clear();
 }
@@ -93,7 +105,7 @@ std::vector<TransferChunk> Packer::finish() {
   uploadValues();
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     chunks_[c].block_count = static_cast<std::uint32_t>(blocks_[c].size());
-    chunks_[c].blocks = gpu::Buffer(device_, name_ + "_blocks", blocks_[c]);
+    chunks_[c].blocks = bufferOf("_blocks", blocks_[c]);
   }
   return std::move(chunks_);
 }

@@ -39,9 +39,9 @@ class Packer {
   /// Writes the words of one vertex.
   using Fill = std::function<void(std::uint32_t vertex, std::uint32_t* direct, std::uint32_t* indirect)>;
 
-  /// Buffers are called `name`_direct and so on; `chunk_bytes` 0: what the device takes.
+  /// Buffers are called `name`_direct and so on; `chunk_bytes` 0: what the device takes. `host_visible`: they are mapped.
   Packer(gpu::Device& device, std::string name, std::size_t direct_words, std::size_t indirect_words,
-         std::size_t chunk_bytes);
+         std::size_t chunk_bytes, bool host_visible = false);
   const std::vector<Part>& partsOf(std::uint32_t mesh, std::uint32_t vertices, const Fill& fill);
   /// One instance's share: `light` and `output` as in VertexBlock.
   void addBlocks(const Part& part, std::uint32_t light, std::uint32_t output);
@@ -50,10 +50,13 @@ class Packer {
  private:
   void append(const Fill& fill, std::uint32_t first, std::uint32_t count);
   void uploadValues();
+  template <class T>
+  gpu::Buffer bufferOf(const char* what, const std::vector<T>& values) const;
 
   gpu::Device& device_;
   std::string name_;
   std::size_t direct_words_, indirect_words_;
+  bool host_visible_;
   std::uint32_t limit_ = 0, used_ = 0;            // blocks of a chunk, and of the last one
   std::vector<std::uint32_t> direct_, indirect_;  // of the last chunk
   std::vector<TransferChunk> chunks_;

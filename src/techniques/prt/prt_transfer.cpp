@@ -68,7 +68,7 @@ void TransferBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& sce
   const std::size_t kept = std::size_t(order_) * std::size_t(order_);
   const bool half = options_.half_float;
   Packer packer(device, "prt.transfer", wordCount(kept, half), has_indirect_ ? wordCount(3 * kept, half) : 0,
-                options_.chunk_bytes);
+                options_.chunk_bytes, options_.on_host);
   std::vector<OutputRow> rows(scene.instances().size(), OutputRow{kUnbaked, 0, 0, 0});
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const std::uint32_t mesh_index = scene.instances()[lit_[i]].mesh;

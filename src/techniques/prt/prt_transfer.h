@@ -12,6 +12,7 @@ namespace gloam::prt {
 struct TransferOptions {
   int order = 0;  ///< bands to keep; 0: as many as are baked
   bool half_float = false;
+  bool on_host = false;         ///< the host reads it, too: buffers are mapped
   std::size_t chunk_bytes = 0;  ///< largest buffer of transfer; 0: what the device takes
   bool operator==(const TransferOptions&) const = default;
 };

@@ -1,0 +1,154 @@
+// gloam - real-time soft global illumination
+// SPDX-License-Identifier: MIT
+//
+// The host's kernel against plain sums, on every instruction set, and against the compute pass.
+#include "techniques/prt/prt_relight_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gpu/format.h"
+#include "math/simd_test_targets.h"
+#include "techniques/prt/prt_packer.h"
+#include "techniques/prt/prt_test_frame.h"
+
+namespace gloam::prt {
+namespace {
+
+/// Random transfer of blocks that are not all full, in the order of TransferChunk.
+struct RandomChunk {
+  RandomChunk(int n, bool colored, bool half_float) : coefficients(std::size_t(n)), half(half_float) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+    std::uint32_t output = 3;  // what lies before and between stays as it is
+    for (const std::uint32_t count : {32u, 1u, 17u, 32u}) {
+      const auto number = static_cast<std::uint32_t>(blocks.size());
+      // The third block is the first one's transfer in another light, as a second instance of a mesh is.
+      blocks.push_back({number == 2 ? 0u : number, number * std::uint32_t(n), output, count});
+      output += count + number;
+    }
+    lights.resize(2 * blocks.size() * coefficients);
+    for (glm::vec3& light : lights) light = {value(random), value(random), 4.0f * value(random)};
+    const auto fill = [&](std::vector<float>& values, std::vector<std::uint32_t>& words, std::size_t count) {
+      const std::size_t word_count = wordCount(count, half);
+      values.resize(blocks.size() * kBlockVertices * count);
+      words.resize(blocks.size() * kBlockVertices * word_count);
+      std::vector<std::uint32_t> of_vertex(word_count);
+      for (std::size_t v = 0; v < blocks.size() * kBlockVertices; ++v) {
+        for (std::size_t i = 0; i < count; ++i) {
+          // Some are below the least normal half.
+          const float x = value(random) * (i % 5 == 4 ? 1e-5f : 1.0f);
+          values[v * count + i] = half ? gpu::floatFromHalf(gpu::halfFromFloat(x)) : x;
+        }
+        packWords({&values[v * count], count}, half, of_vertex.data());
+        for (std::size_t w = 0; w < word_count; ++w)
+          words[(v / kBlockVertices * word_count + w) * kBlockVertices + v % kBlockVertices] = of_vertex[w];
+      }
+    };
+    fill(direct, direct_words, coefficients);
+    if (colored) fill(indirect, indirect_words, 3 * coefficients);
+    vertices = output;
+  }
+  ChunkInMemory memory() const {
+    return {direct_words.data(), indirect.empty() ? nullptr : indirect_words.data(), blocks,
+            int(coefficients), half};
+  }
+  /// Plain sums of vertex v of a block under the lights from `first` on.
+  VertexLight plain(const VertexBlock& block, std::uint32_t v, std::uint32_t first) const {
+    glm::dvec3 d(0.0), i(0.0);
+    const std::size_t at = block.transfer * kBlockVertices + v;
+    for (std::size_t k = 0; k < coefficients; ++k) {
+      const glm::dvec3 light(lights[first + block.light + k]);
+      d += double(direct[at * coefficients + k]) * light;
+      if (indirect.empty()) continue;
+      const float* m = &indirect[3 * (at * coefficients + k)];
+      i += glm::dvec3(m[0], m[1], m[2]) * light;
+    }
+    return {glm::vec3(d), glm::vec3(i)};
+  }
+
+  std::size_t coefficients;
+  bool half;
+  std::vector<VertexBlock> blocks;
+  std::vector<glm::vec3> lights;
+  std::vector<float> direct, indirect;
+  std::vector<std::uint32_t> direct_words, indirect_words;
+  std::size_t vertices = 0;
+};
+
+void expectNear(const glm::vec3& got, const glm::vec3& want) {
+  for (int c = 0; c < 3; ++c) ASSERT_NEAR(got[c], want[c], 3e-5f);
+}
+
+void expectPlainSums(const RandomChunk& chunk, bool in_parts) {
+  const auto first_peak = static_cast<std::uint32_t>(chunk.lights.size() / 2);
+  const VertexLight untouched{glm::vec3(-7.0f), glm::vec3(-8.0f)};
+  std::vector<VertexLight> got(chunk.vertices, untouched), want = got;
+  relight(chunk.memory(), chunk.lights, first_peak, in_parts, got);
+  const glm::vec3 none(0.0f);
+  for (const VertexBlock& block : chunk.blocks) {
+    for (std::uint32_t v = 0; v < block.count; ++v) {
+      VertexLight& light = want[block.output_ + v] = chunk.plain(block, v, 0);
+      if (!in_parts) continue;
+      const VertexLight peak = chunk.plain(block, v, first_peak);
+      light = {glm::max(light.direct, none) + glm::max(peak.direct, none),
+               glm::max(light.indirect, none) + glm::max(peak.indirect, none)};
+    }
+  }
+  for (std::size_t v = 0; v < want.size(); ++v) {
+    SCOPED_TRACE(v);
+    expectNear(got[v].direct, want[v].direct);
+    expectNear(got[v].indirect, want[v].indirect);
+  }
+}
+
+TEST(PrtRelight, IsThePlainSumOnEveryInstructionSet) {
+  onEveryTarget([](const char* target) {
+    SCOPED_TRACE(target);
+    for (const int n : {1, 9, 16, 25, 36})
+      for (const bool colored : {false, true})
+        for (const bool half_float : {false, true})
+          for (const bool in_parts : {false, true}) {
+            SCOPED_TRACE(testing::Message() << n << " coefficients, colored " << colored << ", halves "
+                                            << half_float << ", in parts " << in_parts);
+            expectPlainSums(RandomChunk(n, colored, half_float), in_parts);
+          }
+  });
+}
+
+// Both ways draw the same picture; light that rings is taken in parts.
+TEST(PrtRelight, HostAndDeviceAgree) {
+  Scene scene = loadScene("builtin:furnace");
+  scene.environment = loadEnvironment("sky:preetham?elevation=25");
+  for (Mesh& mesh : scene.meshes) {
+    auto transfer = std::make_shared<Transfer>();
+    transfer->order = 5;
+    for (const glm::vec3& n : mesh.normals) {
+      const sh::Sh narrow = sh::evaluate(5, n);
+      for (const float value : narrow.coefficients()) {
+        transfer->direct.push_back(value);
+        transfer->indirect.insert(transfer->indirect.end(), {value / 3, value / 2, value});
+      }
+    }
+    mesh.transfer = transfer;
+  }
+  const PosedCamera camera = pose(scene, 0.0f).cameras.at(0);
+  for (const char* half : {"off", "on"}) {
+    for (const char* window : {"none", "auto"}) {
+      const auto with = [&](const char* who) {
+        return draw(scene, 64, camera, settings({{"half_float", half}, {"window", window}, {"relight", who}}),
+                    half[1] == 'n' ? 0 : 100000);
+      };
+      const Picture host = with("host"), device = with("device");
+      for (std::size_t i = 0; i < host.direct.size(); ++i) {
+        ASSERT_NEAR(host.direct[i], device.direct[i], 1e-3f * std::abs(device.direct[i]) + 1e-4f);
+        ASSERT_NEAR(host.indirect[i], device.indirect[i], 1e-3f * std::abs(device.indirect[i]) + 1e-4f);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam::prt
