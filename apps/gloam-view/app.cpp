@@ -215,7 +215,7 @@ void App::drawFrame() {
   ImGui_ImplGlfw_NewFrame();
   injectInput();
   ImGui::NewFrame();
-  drawPicture(*session_, place_);
+  drawPicture(*session_, ui_, place_);
   const bool gizmo_has_mouse = drawGizmo(*session_, ui_, place_);
   drawPanel(*session_, ui_, place_, window);
   drawOverlays(*session_, ui_, place_);

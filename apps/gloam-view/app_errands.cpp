@@ -65,6 +65,8 @@ void App::writeStats(const std::string& path) {
   stats["controls"] = cli::Json::object();
   for (const auto& [name, at] : ui_.controls)
     stats["controls"][name] = {at.low.x, at.low.y, at.size.x, at.size.y};
+  stats["inspected"] = ui_.inspected;
+  stats["right_tag"] = ui_.right_tag;
   stats["light_marks"] = cli::Json::array();
   for (const LightMark& mark : lightMarks(*session_, place_))
     stats["light_marks"].push_back({mark.at.x, mark.at.y});

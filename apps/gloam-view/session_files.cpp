@@ -53,7 +53,11 @@ void Session::loadPreset(const std::string& path) {
 
 /// All of a preset but scene, light from afar and camera. Throws Error, and nothing has changed.
 void Session::takePreset(const ViewerChoice& preset, const std::string& path) {
-  state.moves = cli::movesIn(state.scene->scene, preset.moves);
+  try {
+    state.moves = cli::movesIn(state.scene->scene, preset.moves);
+  } catch (const Error& error) {
+    throw Error(std::filesystem::path(path).filename().string(), error.what());
+  }
   adoptChoice(preset);
   state.time_s = preset.view.time_s;
   say(fmt::format("preset {}", std::filesystem::path(path).filename().string()));

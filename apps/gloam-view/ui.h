@@ -36,9 +36,11 @@ struct UiState {
   std::string last_preset;  ///< that F5 saved: what F9 loads
   /// Keys since the last frame, each press and repeat: short ones between two slow frames count too.
   std::vector<int> pressed, repeated;
-  std::vector<std::uint8_t> reference_bytes;  ///< RGBA, as it is shown
-  std::string copied;                         ///< to the clipboard, by whoever owns it
-  std::map<std::string, Place> controls;      ///< of this frame, by name: for tests
+  std::vector<std::uint8_t> reference_bytes;                  ///< RGBA, as it is shown
+  std::string copied;                                         ///< to the clipboard, by whoever owns it
+  std::map<std::string, Place> controls;                      ///< of this frame, by name: for tests
+  std::map<std::string, std::vector<std::string>> inspected;  ///< rows of the inspector, the same
+  std::string right_tag;                                      ///< over the right half, the same
 };
 
 void setStyle(float scale);
@@ -47,12 +49,12 @@ void loadLetters(float scale);
 
 Place layOut(const UiState& ui, const ImVec2& window);
 void drawPanel(Session& session, UiState& ui, const Place& place, const ImVec2& window);
-void drawPicture(Session& session, const Place& place);
+void drawPicture(Session& session, UiState& ui, const Place& place);
 /// Status line, messages, progress, play bar: over or under the picture.
 void drawOverlays(Session& session, UiState& ui, const Place& place);
 /// The height of the picture's tags.
 float tagHeight(float scale);
-void drawInspector(Session& session, const UiState& ui, const Place& place);
+void drawInspector(Session& session, UiState& ui, const Place& place);
 /// Marks of lights, and handles of what is selected. True while the mouse is theirs.
 bool drawGizmo(Session& session, UiState& ui, const Place& place);
 struct LightMark {

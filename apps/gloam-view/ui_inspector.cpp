@@ -55,8 +55,9 @@ std::string objectText(const LayeredImage& layers, const glm::vec2& place) {
   return std::to_string(objects->ids[std::size_t(y) * std::size_t(layers.width) + std::size_t(x)]);
 }
 
-void row(const char* name, const std::vector<std::string>& cells) {
+void row(UiState& ui, const char* name, const std::vector<std::string>& cells) {
   if (std::ranges::all_of(cells, &std::string::empty)) return;
+  ui.inspected[name] = cells;
   valueRow(name, cells.front());
   for (std::size_t i = 1; i < cells.size(); ++i) {
     ImGui::TableNextColumn();
@@ -64,22 +65,23 @@ void row(const char* name, const std::vector<std::string>& cells) {
   }
 }
 
-void valueTable(const std::vector<Half>& halves, const std::string& show, const glm::vec2& place) {
+void valueTable(UiState& ui, const std::vector<Half>& halves, const std::string& show,
+                const glm::vec2& place) {
   const bool both = halves.size() == 2;
   if (!ImGui::BeginTable("values", both ? 4 : 2, ImGuiTableFlags_SizingFixedFit)) return;
-  if (both) row("", {halves[0].name, halves[1].name, "difference"});
+  if (both) row(ui, "", {halves[0].name, halves[1].name, "difference"});
   const auto line = [&](const char* name, const std::string& layer) {
     const std::vector<float> left = valuesOf(*halves[0].layers, layer, place);
-    if (!both) return row(name, {text(left)});
+    if (!both) return row(ui, name, {text(left)});
     const std::vector<float> right = valuesOf(*halves[1].layers, layer, place);
-    row(name, {text(left), text(right), differenceText(left, right)});
+    row(ui, name, {text(left), text(right), differenceText(left, right)});
   };
   line("radiance", "");
   for (const char* name : {"direct", "indirect", "albedo", "normal", "depth"}) line(name, name);
   if (!show.empty()) line("shown", show);
   std::vector<std::string> objects;
   for (const Half& half : halves) objects.push_back(objectText(*half.layers, place));
-  row("object", objects);
+  row(ui, "object", objects);
   ImGui::EndTable();
 }
 
@@ -121,7 +123,8 @@ std::vector<Half> halvesOf(const Session& session, const UiState& ui) {
 
 }  // namespace
 
-void drawInspector(Session& session, const UiState& ui, const Place& place) {
+void drawInspector(Session& session, UiState& ui, const Place& place) {
+  ui.inspected.clear();
   const Drawn* drawn = session.drawn();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!ui.inspector || drawn == nullptr || !drawn->left.layers || !place.holds(mouse) ||
@@ -136,7 +139,7 @@ void drawInspector(Session& session, const UiState& ui, const Place& place) {
     magnified(halves[i], at, ui.scale);
   }
   ImGui::Text("%d, %d", int(at.x * float(drawn->width)), int(at.y * float(drawn->height)));
-  valueTable(halves, drawn->show, at);
+  valueTable(ui, halves, drawn->show, at);
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }

@@ -23,9 +23,9 @@ ImGuiWindowFlags plain() {
          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
 }
 
-/// The first text that has room; in a corner.
-void tag(ImDrawList& list, ImVec2 at, const std::vector<std::string>& texts, float room, bool to_the_left,
-         float scale) {
+/// The first text that has room, in a corner. What was written.
+std::string tag(ImDrawList& list, ImVec2 at, const std::vector<std::string>& texts, float room,
+                bool to_the_left, float scale) {
   const ImVec2 pad(8.0f * scale, 4.0f * scale);
   for (const std::string& text : texts) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -34,8 +34,9 @@ void tag(ImDrawList& list, ImVec2 at, const std::vector<std::string>& texts, flo
     list.AddRectFilled(at, {at.x + size.x + 2.0f * pad.x, at.y + size.y + 2.0f * pad.y}, kShade,
                        3.0f * scale);
     list.AddText({at.x + pad.x, at.y + pad.y}, kSoft, text.c_str());
-    return;
+    return text;
   }
+  return "";
 }
 
 /// What the right half shows, the longest first.
@@ -214,7 +215,8 @@ float tagHeight(float scale) {
   return ImGui::GetTextLineHeight() + 14.0f * scale;
 }
 
-void drawPicture(Session& session, const Place& place) {
+void drawPicture(Session& session, UiState& ui, const Place& place) {
+  ui.right_tag.clear();
   const Drawn* drawn = session.drawn();
   if (drawn == nullptr || drawn->left.rgba.empty()) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -236,8 +238,8 @@ void drawPicture(Session& session, const Place& place) {
       x - low.x - 18.0f * scale, false, scale);
   list.PopClipRect();
   list.PushClipRect({x, low.y}, high, true);
-  tag(list, {high.x - 12.0f * scale, low.y + 12.0f * scale}, rightNames(session), high.x - x - 18.0f * scale,
-      true, scale);
+  ui.right_tag = tag(list, {high.x - 12.0f * scale, low.y + 12.0f * scale}, rightNames(session),
+                     high.x - x - 18.0f * scale, true, scale);
   list.PopClipRect();
 }
 

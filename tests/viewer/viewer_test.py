@@ -251,14 +251,14 @@ class ViewerTest(unittest.TestCase):
 
     def test_presets_that_are_none_are_said_in_our_words(self):
         broken = {"comma.json": '{"exposure": 1,\n "fov": }', "cut.json": '{"exposure": 0.5', "empty.json": "", "list.json": "[1, 2]",
-                  "flag.json": '{"background": "maybe"}', "huge.json": '{"exposure": 1e999}', "deep.json": "[" * 100000}
+                  "flag.json": '{"background": "maybe"}', "node.json": '{"move": ["nowhere=1,2,3"], "exposure": 4}', "huge.json": '{"exposure": 1e999}', "deep.json": "[" * 100000}
         for name, text in broken.items():
             (self.folder / name).write_text(text)
         self.script([{"wait": "idle"}, *({"drop": name} for name in broken), {"wait": "idle"}, {"stats": "said.json"}])
         said = self.stats("said.json")["messages"]
         for name, says in {"comma.json": "line 2, column 9: no JSON from here on", "cut.json": "line 1, column",
                            "empty.json": "is empty", "list.json": "an object of options",
-                           "flag.json": "background: 'maybe': expected true or false", "huge.json": "too large",
+                           "flag.json": "background: 'maybe': expected true or false", "node.json": "--move: no node 'nowhere'", "huge.json": "too large",
                            "deep.json": "nests too deeply"}.items():
             lines = [line for line in said if line.startswith(name)]
             self.assertEqual(len(lines), 1, said)
@@ -450,12 +450,20 @@ class ViewerTest(unittest.TestCase):
 
     def test_reference_refines_and_measures(self):
         self.script([
-            {"wait": "idle"}, {"set": {"reference_samples": 4, "split": "reference"}}, {"wait": "reference"},
-            {"stats": "reference.json"}, {"set": {"exposure": 2}}, {"key": "i"}, {"wait": "idle"}, {"set": {"show": "normal"}},
+            {"wait": "idle"}, {"set": {"reference_samples": 4, "split": "reference"}}, {"wait": 2}, {"stats": "early.json"},
+            {"wait": "reference"}, {"key": "i"}, {"mouse": [500, 200]}, {"wait": "idle"}, {"wait": 3}, {"stats": "reference.json"}, {"key": "i"}, {"set": {"exposure": 2}}, {"key": "i"}, {"wait": "idle"}, {"set": {"show": "normal"}},
             {"wait": "idle"}, {"set": {"show": "", "irradiance.order": 2}}, {"wait": "idle"}, {"wait_s": 0.5},
             {"stats": "same.json"}, {"set": {"env_rotation": 30}}, {"wait": 2}, {"stats": "dropped.json"},
             {"set": {"split": "none", "show": "normal"}}, {"wait": "idle"},
-            {"screenshot": "normal.png"}], BOX, *SMALL, "--scale", "0.2", "--technique", "irradiance")
+            {"screenshot": "normal.png"}], BOX, *SMALL, "--scale", "0.2", "--technique", "irradiance", "--no-panel")
+        self.assertTrue(self.stats("early.json")["right_tag"].startswith("irradiance: "))  # what that half shows until then
+        self.assertTrue(self.stats("reference.json")["right_tag"].startswith("reference, "))
+        inspected = self.stats("reference.json")["inspected"]
+        self.assertEqual(inspected[""], ["irradiance", "reference", "difference"])
+        left, right, difference = ([float(v) for v in cell.split()] for cell in inspected["radiance"])
+        for a, b, d in zip(left, right, difference):
+            self.assertAlmostEqual(b - a, d, delta=0.01 * (abs(a) + abs(b)))
+        self.assertEqual(inspected["object"][0], inspected["object"][1])
         reference, same = (self.stats(f"{n}.json")["reference"] for n in ("reference", "same"))
         self.assertGreaterEqual(reference["samples"], 4)
         self.assertGreater(reference["relative_rmse"], 0.0)
