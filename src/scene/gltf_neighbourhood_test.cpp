@@ -47,11 +47,16 @@ fs::path temporary() {
 
 struct Glb : test::GlbChunks {
   Json& extension() { return json["nodes"][0]["extensions"][kNeighbourhoodExtension]; }
+  auto* visibilityBytes() {
+    const Json& accessor = json["accessors"][extension()["visibility"].get<std::size_t>()];
+    const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    return &binary[view.value("byteOffset", std::size_t(0))];
+  }
 };
 
 /// Writes a grid, breaks it, and gives what the reader says.
-std::string messageAfter(const std::function<void(Glb&)>& breakIt, int bounces = 1) {
-  writeGlb(carryingScene(bounces), temporary());
+std::string messageAfter(const std::function<void(Glb&)>& breakIt, int bounces = 1, bool half_float = false) {
+  writeGlb(carryingScene(bounces), temporary(), {half_float});
   Glb glb{test::readGlbChunks(temporary())};
   breakIt(glb);
   test::writeGlbChunks(glb, temporary());
@@ -152,12 +157,58 @@ TEST(Neighbourhood, BadFilesAreAnswered) {
   expectSays(messageAfter([](Glb& glb) { glb.extension()["format"] = "half"; }), "component type 5123");
   expectSays(messageAfter([](Glb& glb) { glb.extension()["bounces"] = 0; }), "there are no bounces");
   expectSays(messageAfter([](Glb& glb) {
-               const Json& accessor = glb.json["accessors"][glb.extension()["visibility"].get<std::size_t>()];
-               const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
                const float bad = NAN;
-               std::memcpy(&glb.binary[view.value("byteOffset", std::size_t(0)) + 20], &bad, 4);
+               std::memcpy(glb.visibilityBytes() + 20, &bad, 4);
              }),
              "element 5 of accessors");
+  expectSays(messageAfter([](Glb& glb) {
+               const float large = -65600.0f;
+               std::memcpy(glb.visibilityBytes() + 12, &large, 4);
+             }),
+             "is -65600; 65504 is the most");
+  expectSays(messageAfter(
+                 [](Glb& glb) {
+                   const std::uint16_t infinity = 0x7C00;
+                   std::memcpy(glb.visibilityBytes() + 6, &infinity, 2);
+                 },
+                 1, true),
+             "element 3 of accessors");
+}
+
+TEST(Neighbourhood, NumbersThatHalvesCannotHoldAreHeldToTheLargest) {
+  Scene scene = carryingScene(0);
+  auto grid = std::make_shared<NeighbourhoodTransfer>(someGrid(0));
+  grid->visibility[1] = 65504.0f;
+  grid->visibility[2] = -1e6f;
+  scene.nodes[0].neighbourhood = grid;
+  writeGlb(scene, temporary(), {.half_float = true});
+  const Scene again = loadScene(temporary().string());
+  fs::remove(temporary());
+  EXPECT_EQ(again.nodes[0].neighbourhood->visibility[1], 65504.0f);
+  EXPECT_EQ(again.nodes[0].neighbourhood->visibility[2], -65504.0f);
+}
+
+// A node below one that carries a grid has none: which of them its meshes throw by would be undefined.
+TEST(Neighbourhood, GridsBelowGridsAreRefused) {
+  for (const bool grandchild : {false, true}) {
+    const std::string message = messageAfter([grandchild](Glb& glb) {
+      Json& nodes = glb.json["nodes"];
+      const std::size_t added = nodes.size();
+      nodes.push_back({{"extensions", {{kNeighbourhoodExtension, glb.extension()}}}});
+      if (grandchild) nodes.push_back({{"children", {added}}});
+      nodes[0]["children"].push_back(nodes.size() - 1);
+    });
+    EXPECT_NE(message.find("extensions.GLOAM_neighbourhood_transfer: node 0 above it has one already"),
+              std::string::npos)
+        << message;
+  }
+  // Beside each other they may stand.
+  EXPECT_EQ(messageAfter([](Glb& glb) {
+              Json& nodes = glb.json["nodes"];
+              glb.json["scenes"][0]["nodes"].push_back(nodes.size());
+              nodes.push_back({{"extensions", {{kNeighbourhoodExtension, glb.extension()}}}});
+            }),
+            "no error");
 }
 
 }  // namespace

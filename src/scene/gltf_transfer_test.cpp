@@ -399,6 +399,18 @@ TEST(Transfer, ValuesThatAreNotNumbersAreRefused) {
   EXPECT_NE(message.find(".indirect: element 10 of accessors["), std::string::npos) << message;
 }
 
+TEST(Transfer, NumbersBeyondTheLargestHalfAreRefused) {
+  const std::string message = messageAfter([](Glb& glb) {
+    const Json& accessor = glb.json["accessors"][extensionOf(glb)["direct"].get<std::size_t>()];
+    const std::size_t offset =
+        glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"];
+    const float large = 65536.0f;
+    std::memcpy(&glb.binary[offset + 8], &large, 4);
+  });
+  EXPECT_NE(message.find(".direct: element 2 of accessors["), std::string::npos) << message;
+  EXPECT_NE(message.find("is 65536; 65504 is the most"), std::string::npos) << message;
+}
+
 TEST(Transfer, GeometryThatChangedIsRefused) {
   const std::string message = messageAfter([](Glb& glb) {
     const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
