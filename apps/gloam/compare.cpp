@@ -6,6 +6,7 @@
 
 #include "compare_run.h"
 #include "settings_file.h"
+#include "spheres_run.h"
 #include "verb.h"
 
 namespace gloam::cli {
@@ -81,6 +82,7 @@ std::function<int()> declareCompare(CLI::App& app, Console& console) {
       ->type_name("STOPS|auto")
       ->default_str("auto")
       ->group("Output");
+  addSpheresOption(app, choice->spheres);
   app.add_flag("--no-cache{false}", choice->use_cache,
                "neither take nor keep the bake of a scene that has none");
   addConsoleOptions(app, console, true);

@@ -36,7 +36,7 @@ void haveSpheres(Comparison& work, Console& console) {
     BakeTime& time = work.sphere_times.emplace_back();
     if (!contender.technique->needs_spheres) continue;
     spheres = spheresForDrawing(work.stage.scene, work.choice.scene.name, work.choice.use_cache, console,
-                                contender.settings.integer("spheres"), &time);
+                                contender.settings.integer("spheres"), &time, work.choice.spheres);
     if (!contender.technique->needs_emission) continue;
     emission = emissionForDrawing(work.stage.scene, *spheres, work.choice.scene.name, work.choice.use_cache,
                                   console, &time);

@@ -28,6 +28,7 @@ struct CompareChoice {
   int frames = 20;
   std::optional<float> exposure_stops;  ///< of the page; nothing: found in the reference
   bool use_cache = true;
+  std::string spheres;  ///< a file of them
 };
 
 /// Throws Error before anything is written where the input is bad, Interrupted; what is finished then stays.

@@ -35,7 +35,7 @@ struct RenderChoice {
   MotionChoice motion;
   TechniqueChoice technique;
   DisplayChoice display;
-  std::string output, device, layer;
+  std::string output, device, layer, spheres;
   bool use_cache = true;
 };
 
@@ -124,8 +124,11 @@ int runRender(RenderChoice choice, Console& console) {
   if (stage.technique->needs_spheres || showsSpheres(choice.layer)) {
     const int count =
         stage.technique->needs_spheres ? stage.options.settings.integer("spheres") : SphereOptions{}.count;
-    spheres = spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache, console, count);
+    spheres = spheresForDrawing(stage.scene, choice.scene.name, choice.use_cache, console, count, nullptr,
+                                choice.spheres);
   }
+  if (!choice.spheres.empty() && spheres.sets.empty())
+    console.remark(fmt::format("--spheres: {} takes none", stage.technique->name));
   giveSpheres(renderer, *stage.technique, stage.scene, spheres, choice.scene.name, choice.use_cache, console);
   std::optional<ProxySet> drawn_in;
   if (choice.layer == kShadowSpheresLayer) drawn_in.emplace(stage.scene, spheres);
@@ -179,6 +182,7 @@ std::function<int()> declareRender(CLI::App& app, Console& console) {
   addMotionOptions(app, choice->motion);
   addSkyMotion(app, choice->motion);
   addTechniqueOptions(app, choice->technique);
+  addSpheresOption(app, choice->spheres);
   addDeviceOption(app, choice->device);
   addDisplayOptions(app, choice->display);
   addText(app, "--show", choice->layer, CLI::detail::join(frameLayers(), "|") + "|NAME",

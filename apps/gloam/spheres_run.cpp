@@ -38,8 +38,19 @@ std::optional<SceneSpheres> readKept(const fs::path& file, const Scene& scene) {
 
 }  // namespace
 
+void addSpheresOption(CLI::App& app, std::string& file) {
+  addText(app, "--spheres", file, "FILE",
+          "sphere sets that gloam bake spheres wrote for this scene, in place of fitting any");
+}
+
 SceneSpheres spheresForDrawing(const Scene& scene, const std::string& place, bool use_cache, Console& console,
-                               int count, BakeTime* time) {
+                               int count, BakeTime* time, const std::string& file_given) {
+  if (!file_given.empty()) {
+    SceneSpheres given = readSpheres(file_given, scene);
+    console.remarks(place, given.warnings);
+    if (time != nullptr) *time = {std::nullopt, "fitted before"};
+    return given;
+  }
   const SphereOptions options{.count = count};
   const std::optional<fs::path> folder = use_cache ? cacheFolder("spheres") : std::nullopt;
   fs::path file;

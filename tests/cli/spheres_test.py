@@ -44,6 +44,22 @@ class Spheres(CliTest):
         self.refuse("bake", "spheres", says=["gloam bake spheres", "missing"])
         self.refuse("bake", "spheres", BOX, "--bounces", "2", says="--bounces")
 
+    def test_baked_sets_are_drawn_and_those_of_another_model_refused(self):
+        self.bake(BOX, "-k", "6", "-o", "box.json")
+        draw = ["--technique", "proxies", *SMALL, "--no-cache"]
+        self.succeed("render", BOX, *draw, "--spheres", "box.json", "-o", "a.png")
+        sets = json.loads(self.path("box.json").read_text(encoding="utf-8"))
+        for entry in sets["sets"]:
+            for sphere in entry["spheres"]:
+                sphere[3] *= 0.5
+        self.path("less.json").write_text(json.dumps(sets), encoding="utf-8")
+        self.succeed("render", BOX, *draw, "--spheres", "less.json", "-o", "b.png")
+        self.assertNotEqual(self.path("a.png").read_bytes(), self.path("b.png").read_bytes())
+        self.refuse("render", "builtin:shadow", *draw, "--spheres", "box.json", "-o", "c.png", says="box.json")
+        self.refuse("render", BOX, *draw, "--spheres", "missing.json", "-o", "c.png", says="missing.json")
+        text = self.succeed("render", BOX, "--technique", "irradiance", *SMALL, "--spheres", "box.json", "-o", "d.png").err
+        self.assertIn("takes none", text)
+
     def test_a_triangle_only_receives(self):
         self.path("a.glb").write_bytes(glb(*triangle()))
         result = self.bake("a.glb", "-o", "a.json")
