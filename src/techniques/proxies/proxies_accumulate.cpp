@@ -22,7 +22,7 @@ gpu::BufferRef recordBits(const Step& step, const std::string& name, gpu::Buffer
       .read("bounds", bounds)
       .read("proxies", step.proxies)
       .write("bits", bits)
-      .push(TileParams{tiles, step.proxy_count, step.least_sine})
+      .push(TileParams{tiles, step.proxy_count, step.params.least_sine})
       .dispatch((tiles + 63) / 64, words);
   return bits;
 }
@@ -89,8 +89,8 @@ Sums accumulateBySplats(const Step& step) {
   const Sums sums = makeSums(step);
   const gpu::RasterState adding{.blend = gpu::Blend::kAdd};
   const gpu::ClearColor nothing(0.0f, 0.0f, 0.0f, 0.0f);
-  const SplatParams params{step.params, step.least_sine, std::uint32_t(step.level.width),
-                           std::uint32_t(step.level.height), std::uint32_t(step.level.divisor)};
+  const SplatParams params{step.params, std::uint32_t(step.level.width), std::uint32_t(step.level.height),
+                           std::uint32_t(step.level.divisor)};
   // Four targets are what every device has; so the two sums are two passes, as in the paper.
   auto& shadow =
       step.graph.raster("proxies.splat_shadow", proxies_splat_vert_spv, proxies_splat_shadow_frag_spv)

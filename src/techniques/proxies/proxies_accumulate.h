@@ -20,7 +20,6 @@ struct Step {
   const frame::ReceiverLevel& level;
   gpu::BufferRef proxies, flats, light, log_table, alone_table, operator_table;
   std::uint32_t proxy_count, flat_count;
-  float least_sine;  ///< of half-angles that count anywhere
   AccumulateParams params;
   int indirect, exponential;
   bool normalise, whole_field;

@@ -25,9 +25,11 @@ float fade(float from, float to, float x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Whether a receiver (w: 0 is none) lies in a proxy's sphere of influence.
-bool reaches(vec4 position, uint i, float least_sine) {
-  return position.w > 0.0 && least_sine * distance(position.xyz, proxies.at[i].center) < proxies.at[i].radius;
+/// Whether a receiver lies in a proxy's sphere of influence; without it the proxy adds nothing.
+bool reaches(vec3 position, uint i) {
+  vec3 d = proxies.at[i].center - position;
+  float least = push.params.least_sine, radius = proxies.at[i].radius;
+  return least * least * dot(d, d) < radius * radius;
 }
 
 void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {

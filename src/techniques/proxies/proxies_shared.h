@@ -51,7 +51,7 @@ GLOAM_SHARED_SIZE(TileBounds, 24)
 struct TileParams {
   uint tiles;
   uint proxies;
-  float least_sine;  // of half-angles that count anywhere
+  float least_sine;  // as below
 };
 GLOAM_SHARED_SIZE(TileParams, 12)
 
@@ -62,14 +62,14 @@ struct AccumulateParams {
   float shadow_to;
   float indirect_from;
   float indirect_to;
+  float least_sine;  // of half-angles that count anywhere
 };
-GLOAM_SHARED_SIZE(AccumulateParams, 20)
+GLOAM_SHARED_SIZE(AccumulateParams, 24)
 
 /// One proxy's quad, six vertices an instance, over the receivers that its sphere of influence may hold.
 struct SplatParams {
   AccumulateParams params;
-  float least_sine;  // of half-angles that count anywhere
-  uint columns;      // of receivers
+  uint columns;  // of receivers
   uint rows;
   uint divisor;  // pixels a side to one receiver
 };
@@ -95,7 +95,7 @@ struct RepairParams {
   uint divisor;
   uint flats;
 };
-GLOAM_SHARED_SIZE(RepairParams, 36)
+GLOAM_SHARED_SIZE(RepairParams, 40)
 
 /// Squares of 2 x 2 pixels of a list (QuadList, all four of it 1 at first) that a work group looks at.
 GLOAM_SHARED_CONST uint kRepairGroup = 64u;

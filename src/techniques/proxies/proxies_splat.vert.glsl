@@ -31,8 +31,8 @@ void main() {
   proxy_index = uint(gl_InstanceIndex);
   ProxyRow proxy = proxies.at[gl_InstanceIndex];
   vec2 size = vec2(push.columns, push.rows) * float(push.divisor);
-  bool bounded = push.least_sine > 1e-4;
-  float reach = bounded ? proxy.radius / push.least_sine : 0.0;
+  bool bounded = push.params.least_sine > 1e-4;
+  float reach = bounded ? proxy.radius / push.params.least_sine : 0.0;
   vec3 d = proxy.center - frame_view.view.eye;
   float z = dot(d, frame_view.view.forward);
   vec3 u = normalize(frame_view.view.step_x), v = normalize(frame_view.view.step_y);

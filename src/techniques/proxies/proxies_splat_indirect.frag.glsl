@@ -27,7 +27,7 @@ layout(location = 0) out vec4 sent;
 void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(receiver_position, place, 0);
-  if (!reaches(position, proxy_index, push.least_sine)) discard;
+  if (position.w <= 0.0 || !reaches(position.xyz, proxy_index)) discard;
   Gathered sum = Gathered(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy_index);
   sent = sum.sent;

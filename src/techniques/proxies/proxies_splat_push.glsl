@@ -7,7 +7,6 @@
 
 layout(scalar, push_constant) uniform Push {
   AccumulateParams params;
-  float least_sine;
   uint columns;
   uint rows;
   uint divisor;

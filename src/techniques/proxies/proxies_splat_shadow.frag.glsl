@@ -25,7 +25,7 @@ layout(location = 3) out vec4 log3;
 void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(receiver_position, place, 0);
-  if (!reaches(position, proxy_index, push.least_sine)) discard;
+  if (position.w <= 0.0 || !reaches(position.xyz, proxy_index)) discard;
   Gathered sum = Gathered(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy_index);
   log0 = sum.log0, log1 = sum.log1, log2 = sum.log2, log3 = sum.log3;

@@ -15,7 +15,8 @@ Gathered gatherTile(vec3 position, vec3 normal, uint first) {
   while (left == 0u && word < push.params.words) left = bits.at[first + word++];
   if (left == 0u) return sum;
   do {
-    addProxy(sum, position, normal, (word - 1u) * 32u + uint(findLSB(left)));
+    uint i = (word - 1u) * 32u + uint(findLSB(left));
+    if (reaches(position, i)) addProxy(sum, position, normal, i);
     left &= left - 1u;
     while (left == 0u && word < push.params.words) left = bits.at[first + word++];
   } while (left != 0u);
