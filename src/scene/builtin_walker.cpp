@@ -57,12 +57,14 @@ Scene makeWalker(const Detail& detail, NamedValues&) {
   const float cell = detail.cell(0.045f);
   builder.place("ground", shapes::slab(2.2f, 2.2f, 0.2f, 0.03f, cell),
                 builder.diffuse("ground", {0.48f, 0.46f, 0.42f}));
+  // Walls reach into the ground and each other by their edges' radius: round edges would be seen there as dark lines.
+  constexpr float kEdge = 0.005f;
   builder.place("back wall",
-                shapes::moved(shapes::roundedBox({2.2f, 1.2f, 0.08f}, 0.02f, cell, 2), {0, 1.2f, 0}),
+                shapes::moved(shapes::roundedBox({2.2f, 1.2025f, 0.08f}, kEdge, cell, 2), {0, 1.1975f, 0}),
                 builder.diffuse("teal plaster", {0.16f, 0.4f, 0.4f}), {0, 0, -2.12f});
   builder.place("left wall",
-                shapes::moved(shapes::roundedBox({0.08f, 1.2f, 2.04f}, 0.02f, cell, 2), {0, 1.2f, 0}),
-                builder.diffuse("red plaster", {0.58f, 0.14f, 0.09f}), {-2.12f, 0, 0.0f});
+                shapes::moved(shapes::roundedBox({0.08f, 1.2025f, 2.0425f}, kEdge, cell, 2), {0, 1.1975f, 0}),
+                builder.diffuse("red plaster", {0.58f, 0.14f, 0.09f}), {-2.12f, 0, -0.0025f});
   builder.place("pedestal", shapes::cylinder(0.3f, 0.62f, 0.02f, detail(56), detail(22)),
                 builder.diffuse("stone", {0.68f, 0.66f, 0.62f}));
   builder.place("knot", shapes::torusKnot(2, 3, 0.2f, 0.085f, 0.052f, detail(180), detail(16)),
