@@ -133,8 +133,7 @@ const TechniqueInfo& info() {
 SphericalLights::SphericalLights(gpu::Device& device)
     : cells_(device, "spherical_lights.cells", cellRows()),
       area_fit_(averageFit(Average::kArea)),
-      solid_angle_fit_(averageFit(Average::kSolidAngle)),
-      log_fit_(logFit()) {}
+      solid_angle_fit_(averageFit(Average::kSolidAngle)) {}
 
 LightRows SphericalLights::lightRows(const sh::ShRgb& light, const Settings& settings) const {
   LightRows row{};
@@ -146,8 +145,6 @@ LightRows SphericalLights::lightRows(const sh::ShRgb& light, const Settings& set
   } else {
     frame::shadeRows(frame::windowed(light, kEmissionOrder, window), row.shade);
   }
-  std::ranges::copy(log_fit_[0], row.log_fit);
-  std::ranges::copy(log_fit_[1], row.log_fit + kFitTerms);
   std::ranges::copy(settings.choice("average") == "area" ? area_fit_ : solid_angle_fit_, row.average_fit);
   return row;
 }
@@ -223,8 +220,9 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
                          quick(blockingOf(settings), visibilityOf(settings), rows.objects.size()) &&
                          blockingOf(settings) == kPerObject;
   if (hierarchy) addCoarse(rows, *inputs.emission);
-  const gpu::BufferRef patch_radiance = graph.create(
-      "spherical_lights.patch_radiance", gpu::BufferDesc{.bytes = std::max(1u, patches) * sizeof(glm::vec3)});
+  const gpu::BufferRef patch_radiance =
+      graph.create("spherical_lights.patch_radiance",
+                   gpu::BufferDesc{.bytes = (patches + kPatchesPast) * sizeof(glm::vec3)});
   if (patches == 0) graph.clear("spherical_lights.patch_radiance", patch_radiance);
   const Step step{
       .graph = graph,
@@ -237,6 +235,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .lamps_are_balls = balls,
       .indirect = settings.flag("indirect") && count + patches > 0,
       .at_vertices = settings.choice("receivers") == "vertices",
+      .by_lanes = graph.device().info().software && graph.device().limits().subgroup_size >= 8,
       .coarse_limit = settings.number("hierarchy"),
       .light = graph.uploadOne("spherical_lights.light", lightRows(inputs.environment.sh(), settings)),
       .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),

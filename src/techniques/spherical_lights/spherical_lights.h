@@ -25,7 +25,6 @@ class SphericalLights : public Technique {
 
   gpu::Buffer cells_;
   Fit area_fit_, solid_angle_fit_;
-  LogFit log_fit_;
 };
 
 }  // namespace gloam::spherical_lights

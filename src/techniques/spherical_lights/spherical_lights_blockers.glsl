@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // What one sphere blocks at a receiver, and functions of four bands as four vec4 (the software driver keeps indexed arrays in
-// memory). Includers declare the buffer spheres and the uniform block light.
+// memory). Includers declare the uniform block light.
 #ifndef GLOAM_SPHERICAL_LIGHTS_BLOCKERS_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_BLOCKERS_GLSL
 #include "math/sh.glsl"
 #include "math/sh_exp.glsl"
 #include "math/sh_log_blocker.glsl"
 #include "spheres/receiver_rule.glsl"
+#include "techniques/spherical_lights/spherical_lights_fits.h"
+
+const vec4 kLogFit[2 * kFitTerms] = vec4[2 * kFitTerms](GLOAM_LOG_FIT);
 
 /// Coefficients 0 to 3, 4 to 7, 8 to 11, 12 to 15.
 struct Sh4 {
@@ -40,10 +43,11 @@ Sh4 basisAt(vec3 direction) {
 /// Logs of what a sphere leaves visible, by band.
 vec4 logWeights(float sin_half_angle) {
   float t = shLogBlockerCoordinate(sin_half_angle);
-  bool high = t > kLogSplit;
-  float x = high ? 2.0 * (t - kLogSplit) / (1.0 - kLogSplit) - 1.0 : 2.0 * t / kLogSplit - 1.0;
-#define GLOAM_LOG(i) (high ? light.row.log_fit[kFitTerms + i] : light.row.log_fit[i])
-  return sin_half_angle * sin_half_angle * GLOAM_FIT(GLOAM_LOG, x);
+  float x = 2.0 * t / kLogSplit - 1.0, above = 2.0 * (t - kLogSplit) / (1.0 - kLogSplit) - 1.0;
+#define GLOAM_LOG(i) kLogFit[i]
+#define GLOAM_LOG_ABOVE(i) kLogFit[kFitTerms + i]
+  vec4 low = GLOAM_FIT(GLOAM_LOG, x), high = GLOAM_FIT(GLOAM_LOG_ABOVE, above);
+  return sin_half_angle * sin_half_angle * (t > kLogSplit ? high : low);
 }
 vec4 averageWeights(float sin_half_angle) {
   float x = 2.0 * shLogBlockerCoordinate(sin_half_angle) - 1.0;
@@ -51,10 +55,17 @@ vec4 averageWeights(float sin_half_angle) {
   return GLOAM_FIT(GLOAM_AVERAGE, x);
 }
 
-/// G of sphere j at a receiver.
-Sh4 logOf(vec3 position, vec3 normal, uint j) {
-  SeenSphere seen = seenSphere(position, normal, spheres.at[j].center, spheres.at[j].radius);
-  return scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * spheres.at[j].blocks);
+/// The head of a SphereRow.
+struct Ball {
+  vec3 center;
+  float radius, blocks;
+  uint first_listed, listed;
+};
+Ball ballOf(SphereRow row) { return Ball(row.center, row.radius, row.blocks, row.first_listed, row.listed); }
+/// G of a sphere at a receiver.
+Sh4 logOf(vec3 position, vec3 normal, Ball ball) {
+  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
+  return scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * ball.blocks);
 }
 
 /// V . f of a disc that size: factors of bands.

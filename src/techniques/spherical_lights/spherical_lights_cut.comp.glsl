@@ -23,6 +23,8 @@ layout(scalar, set = 0, binding = 10) writeonly buffer Ratios { vec4 at[]; } rat
 layout(set = 0, binding = 11) uniform writeonly image2D ratio;
 layout(scalar, push_constant) uniform Push { CutParams params; } push;
 
+#include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+Ball ballAt(uint i) { return ballOf(spheres.at[i]); }
 #include "techniques/spherical_lights/spherical_lights_within.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
 
@@ -33,13 +35,14 @@ shared vec4 scaled_by[kLanes];  // sum, number
 
 /// Light that a receiver which faces them would have of sphere i, next to what its own object's spheres leave; w: its log.
 vec4 lightOf(vec3 position, vec3 normal, uint i) {
-  SeenSphere seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
+  Ball ball = ballAt(i);
+  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
   vec4 disc = discWeights(seen.sin_half_angle);
-  float within = logListed(position, normal, i, seen.direction, disc / max(disc.x, 1e-12));
+  float within = logListed(position, normal, i, ball, seen.direction, disc / max(disc.x, 1e-12));
   Sh4 f = averageAt(seen.sin_half_angle, basisAt(seen.direction));
   vec3 radiance = GLOAM_RADIANCE(sent.at[i]);
   return vec4(radiance * (irradianceOfDisc(seen, normal) * exp(min(within, 0.0))),
-              logWeights(seen.sin_half_angle).x * spheres.at[i].blocks);
+              logWeights(seen.sin_half_angle).x * ball.blocks);
 }
 
 /// By how much light and logs of coarse sphere c are to be scaled.

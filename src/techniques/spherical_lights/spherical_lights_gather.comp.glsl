@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "techniques/spherical_lights/spherical_lights_shared.h"
+#define GLOAM_ROW(type) type
 #include "techniques/spherical_lights/spherical_lights_second_pass.glsl"
 
 layout(constant_id = 0) const int blocking = 0;

@@ -6,6 +6,7 @@
 #ifndef GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_GATHER_GLSL
 #include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+#include "techniques/spherical_lights/spherical_lights_rows.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
 #include "frame/light_peak.glsl"

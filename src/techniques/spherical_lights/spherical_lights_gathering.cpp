@@ -26,10 +26,18 @@ struct Pictures {
   gpu::ImageRef direct, indirect;
 };
 
+/// One that is shown is black where nothing is written: lists fill a part of theirs.
+gpu::ImageRef createPicture(const Step& step, const std::string& name, VkFormat format, int width,
+                            int height) {
+  const gpu::ImageRef image =
+      step.graph.create(name, gpu::ImageDesc{.format = format, .width = width, .height = height});
+  if (step.inputs.show == name) step.graph.clear(name, image);
+  return image;
+}
+
 Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& points, const std::string& name) {
   const auto image = [&](const char* what, VkFormat format) {
-    return step.graph.create(
-        name + what, gpu::ImageDesc{.format = format, .width = points.width, .height = points.height});
+    return createPicture(step, name + what, format, points.width, points.height);
   };
   const Pictures got{image("direct", kHalves), image("indirect", kHalves)};
   const bool is_quick = quick(step.blocking, step.visibility, step.rows.objects.size());
@@ -45,6 +53,7 @@ Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& point
   } else {
     pass.specialize("most_groups", groups)
         .specialize("hierarchy", hierarchy)
+        .specialize("by_lanes", step.by_lanes)
         .read("listed", step.listed)
         .read("cuts", cuts.levels)
         .read("ratios", cuts.ratios);
@@ -79,7 +88,7 @@ Pictures recordUpsampling(const Step& step, gpu::BufferRef sent, const frame::Re
   gpu::FrameGraph& graph = step.graph;
   const frame::GBuffer& gbuffer = step.inputs.gbuffer;
   const auto image = [&](const char* name, VkFormat format, int width, int height) {
-    return graph.create(name, gpu::ImageDesc{.format = format, .width = width, .height = height});
+    return createPicture(step, name, format, width, height);
   };
   const Pictures full{image("spherical_lights.direct_full", kHalves, gbuffer.width, gbuffer.height),
                       image("spherical_lights.indirect_full", kHalves, gbuffer.width, gbuffer.height)};

@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// What rectangles of ground and walls (frame/patch.glsl) block and send. Includers declare the buffers blocking_patches, sending_patches,
-// patch_radiance and push.params.
+// What rectangles of ground and walls (frame/patch.glsl) block and send. Includers declare push.params and what
+// reads rows: spherical_lights_rows.glsl, or …_lanes.glsl.
 #ifndef GLOAM_SPHERICAL_LIGHTS_PATCHES_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_PATCHES_GLSL
 #include "frame/patch.glsl"
@@ -21,8 +21,9 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   Sh4 sum = kNothing;
   whole = kNothing;
   for (uint j = 0u; j < push.params.blocking_patches; ++j) {
-    PatchCone cone = patchCone(blocking_patches.at[j], position, normal);
-    float above = aboveTangent(blocking_patches.at[j], position, normal);
+    PatchRow row = blockingPatch(j);
+    PatchCone cone = patchCone(row, position, normal);
+    float above = aboveTangent(row, position, normal);
     SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle);
     sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * (cone.there * above)));
     whole = plus(whole, scaled(basisAt(cone.direction), logWeights(cone.sin_half_angle) * cone.there));
@@ -36,7 +37,7 @@ float ballPastPatches(vec3 position, vec3 normal, vec3 center, float radius) {
   vec3 way = center - position;
   float far = length(way), left = 1.0;
   for (uint j = 0u; j < push.params.blocking_patches; ++j) {
-    PatchRow row = blocking_patches.at[j];
+    PatchRow row = blockingPatch(j);
     float height = dot(row.center - position, row.normal), slope = dot(way, row.normal);
     float t = abs(slope) > 1e-9 ? height / slope : -1.0;
     if (t <= 0.0 || t >= 1.0) continue;
@@ -56,13 +57,13 @@ vec4 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
   vec4 sum = vec4(0.0);
   for (uint j = 0u; j < push.params.sending_patches; ++j) {
     float height;
-    vec3 toward = patchVector(sending_patches.at[j], position, height);
+    vec3 toward = patchVector(sendingPatch(j), position, height);
     float size = length(toward);
     vec4 disc = discWeights(sqrt(min(size / 3.14159265, 1.0)));
     vec3 way = size > 1e-9 ? toward / size : normal;
     float open = clamp(dotOf(scaled(basisAt(way), disc), visible) / max(disc.x, 1e-12), 0.0, 1.0);
     float facing = height > 0.0 ? max(0.0, dot(toward, normal)) : 0.0;
-    sum += vec4(patch_radiance.at[j], 1.0) * (facing * open);
+    sum += vec4(patchRadiance(j), 1.0) * (facing * open);
   }
   return sum;
 }

@@ -5,10 +5,12 @@
 // and long loops run over the same rows for all receivers, which is what software drivers are quick at. Groups (objects, or single
 // spheres) are put in order by rank; sums of logs are kept along it, so each sphere finds what stands before its group as one sum,
 // however many there are (SL-14). Of its own object a sphere adds what it does not meet (per object) or takes back what it meets (per
-// sphere): its list. Includers declare the constants blocking, most_groups, has_indirect, glows and hierarchy, the buffers spheres, objects,
+// sphere): its list. Includers declare the constants blocking, most_groups, has_indirect, glows, hierarchy and by_lanes, the buffers spheres, objects,
 // sent, glow, listed, cuts, ratios and those of patches, the uniform block light, and push push.params.
 #ifndef GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_RECEIVE_GLSL
+#include "techniques/spherical_lights/spherical_lights_blockers.glsl"
+#include "techniques/spherical_lights/spherical_lights_lanes.glsl"
 #include "techniques/spherical_lights/spherical_lights_patches.glsl"
 #include "techniques/spherical_lights/spherical_lights_radiance.glsl"
 #include "techniques/spherical_lights/spherical_lights_within.glsl"
@@ -34,8 +36,11 @@ Gathered receive(vec3 position, vec3 normal) {
   for (uint o = 0u; o < push.params.objects; ++o) {
     Sh4 own = kNothing;
     LevelRow cut = spheresOf(cluster, o);
-    for (uint i = cut.first; i < cut.first + cut.count; ++i)
-      own = plus(own, scaled(logOf(position, normal, i), ratioOf(cluster, i).w));
+    for (uint i = cut.first; i < cut.first + cut.count; ++i) {
+      Ball ball = ballAt(i);
+      ball.blocks *= ratioOf(cluster, i).w;
+      own = plus(own, logOf(position, normal, ball));
+    }
     all = plus(all, own);
     if (send) {
       float f[16] = GLOAM_ARRAY_OF(own);
@@ -66,23 +71,24 @@ Gathered receive(vec3 position, vec3 normal) {
     Sh4 before = GLOAM_SH4_OF(f);
     LevelRow cut = spheresOf(cluster, o);
     for (uint i = cut.first; i < cut.first + cut.count; ++i) {
-      SeenSphere seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      Ball ball = ballAt(i);
+      SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
       vec4 disc = discWeights(seen.sin_half_angle), bands = disc / max(disc.x, 1e-12);
       Sh4 y = basisAt(seen.direction);
-      float within = logListed(position, normal, i, seen.direction, bands);
+      float within = logListed(position, normal, i, ball, seen.direction, bands);
       float log_before = dotOf(scaled(y, bands), before) + (blocking == kPerObject ? within : -within);
       float open = irradianceOfDisc(seen, normal);
       float share = open * exp(min(log_before, 0.0));
       Sh4 f = averageAt(seen.sin_half_angle, y);
       if (has_indirect) {
-        vec3 radiance = GLOAM_RADIANCE(sent.at[i]) * ratioOf(cluster, i).rgb;
+        vec3 radiance = radianceOf(i, f) * ratioOf(cluster, i).rgb;
         got.indirect += radiance * share;
         got.unblocked += radiance * open;
       }
       if (glows) {
-        vec3 radiance = GLOAM_RADIANCE(glow.at[i]) * share;
-        if (radiance != vec3(0.0))
-          got.direct += radiance * ballPastPatches(position, normal, spheres.at[i].center, spheres.at[i].radius);
+        vec3 radiance = glowOf(i, f) * share;
+        for (uint k = subgroupAny(radiance != vec3(0.0)) ? 0u : 1u; k < 1u; ++k)
+          got.direct += radiance * ballPastPatches(position, normal, ball.center, ball.radius);
       }
     }
   }

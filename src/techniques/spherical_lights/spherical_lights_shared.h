@@ -40,12 +40,12 @@ GLOAM_SHARED_CONST uint kMostKept = 512u;
 struct SphereRow {
   vec3 center;
   float radius;
+  float blocks;       // 0: a lamp, which stands in nobody's light; 1
+  uint first_listed;  // of those of its object that it does not meet (per object), or meets (per sphere)
+  uint listed;
   uint object;
   uint first;  // of its object's spheres
   uint count;
-  uint first_listed;  // of those of its object that it does not meet (per object), or meets (per sphere)
-  uint listed;
-  float blocks;  // 0: a lamp, which stands in nobody's light; 1
 };
 GLOAM_SHARED_SIZE(SphereRow, 40)
 
@@ -99,6 +99,8 @@ GLOAM_SHARED_SIZE(SentRow, 192)
 GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
 /// How far from its plane, in its lesser half side, a surface that lies along a patch may be its own: one stands in the middle of a thing.
 GLOAM_SHARED_CONST float kPatchOwn = 1.3f;
+/// Rows that the buffer of what patches send has past its last: it is read by eight words.
+GLOAM_SHARED_CONST uint kPatchesPast = 2u;
 /// Samples of one.
 GLOAM_SHARED_CONST uint kPatchPoints = 4u;
 
@@ -111,10 +113,9 @@ GLOAM_SHARED_CONST uint kVertexColumns = 1024u;
 struct LightRows {
   vec3 shade[144];  // Q[9 i + j]; without the peak
   LightPeak peak;
-  vec4 log_fit[20];  // 2 kFitTerms
   vec4 average_fit[10];
 };
-GLOAM_SHARED_SIZE(LightRows, 2296)
+GLOAM_SHARED_SIZE(LightRows, 1976)
 
 struct GatherParams {
   uint spheres;

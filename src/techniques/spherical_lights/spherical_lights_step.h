@@ -16,6 +16,7 @@ struct Step {
   int blocking, visibility;  ///< kPerObject …, kMean …
   int divisor;
   bool repair, lamps_are_balls, indirect, at_vertices;
+  bool by_lanes;  ///< frame/lanes.glsl
   float coarse_limit;
   gpu::BufferRef light, spheres, objects, meets, listed, glow, levels, coarse, leaves, blocking_patches,
       sending_patches, patch_radiance;

@@ -8,6 +8,7 @@
 
 #include "math/sampling.h"
 #include "math/sh_log_exp.h"
+#include "techniques/spherical_lights/spherical_lights_fits.h"
 #include "techniques/spherical_lights/spherical_lights_prepare.h"
 
 namespace gloam::spherical_lights {
@@ -72,6 +73,16 @@ TEST(SphericalLightsTables, PolynomialsAreCloseToWhatTheyStandFor) {
   RecordProperty("average", std::to_string(average_off));
   EXPECT_LT(log_off, 0.012f);
   EXPECT_LT(average_off, 2e-3f);
+}
+
+TEST(SphericalLightsTables, ShadersHaveTheNumbersOfTheFit) {
+  using glm::vec4;
+  const vec4 written[] = {GLOAM_LOG_FIT};
+  ASSERT_EQ(std::size(written), std::size_t(2 * kFitTerms));
+  const LogFit fit = logFit();
+  for (std::size_t i = 0; i < std::size(written); ++i)
+    EXPECT_LT(glm::length(written[i] - fit[i / std::size_t(kFitTerms)][i % std::size_t(kFitTerms)]), 2e-6f)
+        << "row " << i;
 }
 
 TEST(SphericalLightsTables, DiscWeightsAreThoseOfTheDisc) {
