@@ -45,12 +45,13 @@ const TransferBuffers& Prt::transferFor(const frame::FrameInputs& inputs, const 
   return *transfer_;
 }
 
-const NeighbourhoodBuffers& Prt::neighbourhoodFor(const frame::FrameInputs& inputs, int order) {
+const NeighbourhoodBuffers& Prt::neighbourhoodFor(const frame::FrameInputs& inputs, int order, bool on_host) {
   const std::uint64_t revision = inputs.scene.layoutRevision();
-  if (neighbourhood_ && neighbourhood_revision_ == revision && neighbourhood_->orderAskedFor() == order)
+  if (neighbourhood_ && neighbourhood_revision_ == revision && neighbourhood_->orderAskedFor() == order &&
+      neighbourhood_->onHost() == on_host)
     return *neighbourhood_;
   neighbourhood_.reset();
-  neighbourhood_.emplace(device_, inputs.scene, order);
+  neighbourhood_.emplace(device_, inputs.scene, order, on_host);
   neighbourhood_revision_ = revision;
   return *neighbourhood_;
 }
@@ -154,7 +155,8 @@ frame::Lighting Prt::record(gpu::FrameGraph& graph, const frame::FrameInputs& in
   std::optional<NeighbourhoodPasses> neighbourhood;
   // Local light sees the other objects in the way by itself.
   if (settings.flag("neighbourhood") && !local && !inputs.scene.carriers().shown().empty()) {
-    const NeighbourhoodBuffers& buffers = neighbourhoodFor(inputs, settings.integer("order"));
+    const NeighbourhoodBuffers& buffers =
+        neighbourhoodFor(inputs, settings.integer("order"), transfer.options().on_host);
     neighbourhood.emplace(
         graph, inputs, buffers, transfer,
         frame::windowed(inputs.environment.sh(), buffers.lightOrder(), windowOf(settings.choice("window"))),

@@ -31,7 +31,7 @@ class Prt : public Technique {
   const TransferBuffers& transferFor(const frame::FrameInputs& inputs, const TransferOptions& options);
   const GlossyBuffers& glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options);
   const VolumeBuffers& volumesFor(const frame::FrameInputs& inputs, int order);
-  const NeighbourhoodBuffers& neighbourhoodFor(const frame::FrameInputs& inputs, int order);
+  const NeighbourhoodBuffers& neighbourhoodFor(const frame::FrameInputs& inputs, int order, bool on_host);
   gpu::BufferRef lightVerticesLocally(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                       const TransferBuffers& transfer, const Settings& settings);
   void addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,

@@ -11,6 +11,7 @@
 #include "math/sh_high_order.h"
 #include "scene/transforms.h"
 #include "shaders/prt_shaders.h"
+#include "techniques/prt/prt_relight_kernel.h"
 
 namespace gloam::prt {
 namespace {
@@ -78,7 +79,8 @@ NeighbourhoodPasses::NeighbourhoodPasses(gpu::FrameGraph& graph, const frame::Fr
     first_words_.push_back(words);
     words += grid.points * buffers.wordsOfPoint();
   }
-  fields_ = graph.create("prt.neighbourhood_fields", gpu::BufferDesc{.bytes = std::size_t(words) * 4});
+  fields_ = graph.create("prt.neighbourhood_fields",
+                         gpu::BufferDesc{.bytes = std::size_t(words) * 4, .host_visible = buffers.onHost()});
   for (std::size_t c = 0; c < buffers.grids().size(); ++c) multiply(c, light_);
   for (std::size_t c = 0; c < buffers.grids().size(); ++c) addReader(c, glm::mat4(1.0f));
   findReaders(transfer);
@@ -95,6 +97,7 @@ void NeighbourhoodPasses::multiply(std::size_t carrier, const sh::ShRgb& light) 
   const std::vector<glm::vec3> product = sh::Tripling::of(buffers_.lightOrder(), buffers_.fieldOrder())
                                              .lightMatrix(turned.coefficients(), bands * bands);
   lights.insert(lights.end(), product.begin(), product.end());
+  if (buffers_.onHost()) return multiplyOnHost(carrier, std::move(lights));
   const gpu::BufferRef light_rows =
       graph_.upload("prt.neighbourhood_lights_" + std::to_string(carrier), lights);
   for (const NeighbourhoodBuffers::Rows& rows : grid.thrown) {
@@ -109,6 +112,26 @@ void NeighbourhoodPasses::multiply(std::size_t carrier, const sh::ShRgb& light) 
         .push(NeighbourhoodPoints{grid.points, first_words_[carrier], rows.first_row})
         .dispatch((grid.points + 63) / 64, rows.row_count);
   }
+}
+
+void NeighbourhoodPasses::multiplyOnHost(std::size_t carrier, std::vector<glm::vec3> lights) {
+  auto& pass = graph_.host("prt.neighbourhood_points");
+  pass.write(fields_);
+  pass.run([&buffers = buffers_, carrier, lights = std::move(lights), fields = fields_,
+            first_word = first_words_[carrier]](gpu::HostAccess& access) {
+    const NeighbourhoodBuffers::Grid& grid = buffers.grids()[carrier];
+    for (const NeighbourhoodBuffers::Rows& rows : grid.thrown)
+      multiplyGrid(
+          {.visibility = reinterpret_cast<const float*>(grid.visibility.mapped()),
+           .thrown =
+               buffers.hasThrown() ? reinterpret_cast<const std::uint32_t*>(rows.words.mapped()) : nullptr,
+           .points = grid.points,
+           .first_row = rows.first_row,
+           .row_count = rows.row_count,
+           .light_order = buffers.lightOrder(),
+           .field_order = buffers.fieldOrder()},
+          lights, access.map<std::uint32_t>(fields).data() + first_word);
+  });
 }
 
 /// A grid as someone reads it whose coordinates are `world_from_place`'s; its radiance will be turned to their axes.

@@ -17,8 +17,8 @@ namespace gloam::prt {
 class NeighbourhoodBuffers {
  public:
   /// `order`: most bands that are kept; 0: all. Throws Error where a grid's numbers do not fit its size, or a buffer exceeds
-  /// the device's.
-  NeighbourhoodBuffers(gpu::Device& device, const frame::GpuScene& scene, int order);
+  /// the device's. `on_host`: the host multiplies them with the light.
+  NeighbourhoodBuffers(gpu::Device& device, const frame::GpuScene& scene, int order, bool on_host);
 
   struct Rows {
     gpu::Buffer words;  ///< [row][pair of columns][3 words][point]
@@ -32,6 +32,7 @@ class NeighbourhoodBuffers {
   bool empty() const { return grids_.empty(); }
   const std::vector<Grid>& grids() const { return grids_; }
   int orderAskedFor() const { return order_; }
+  bool onHost() const { return on_host_; }
   int lightOrder() const { return light_order_; }
   int fieldOrder() const { return field_order_; }
   int visibilityOrder() const { return light_order_ + field_order_ - 1; }
@@ -45,7 +46,7 @@ class NeighbourhoodBuffers {
   Grid makeGrid(gpu::Device& device, const std::string& place, const NeighbourhoodTransfer& grid) const;
 
   int order_, light_order_ = 0, field_order_ = 0;
-  bool has_thrown_ = false;
+  bool on_host_, has_thrown_ = false;
   std::vector<Grid> grids_;
 };
 
@@ -66,6 +67,7 @@ class NeighbourhoodPasses {
 
  private:
   void multiply(std::size_t carrier, const sh::ShRgb& light);
+  void multiplyOnHost(std::size_t carrier, std::vector<glm::vec3> lights);
   std::uint32_t addReader(std::size_t carrier, const glm::mat4& world_from_place);
   void findReaders(const TransferBuffers& transfer);
   void turn();

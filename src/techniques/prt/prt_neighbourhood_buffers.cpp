@@ -27,8 +27,9 @@ void checkSizes(const std::string& place, const NeighbourhoodTransfer& grid) {
 
 }  // namespace
 
-NeighbourhoodBuffers::NeighbourhoodBuffers(gpu::Device& device, const frame::GpuScene& scene, int order)
-    : order_(order) {
+NeighbourhoodBuffers::NeighbourhoodBuffers(gpu::Device& device, const frame::GpuScene& scene, int order,
+                                           bool on_host)
+    : order_(order), on_host_(on_host) {
   const int most = order > 0 ? order : sh::kMaxOrder;
   light_order_ = field_order_ = most;
   const std::vector<frame::Carrier>& carriers = scene.carriers().shown();
@@ -60,7 +61,7 @@ NeighbourhoodBuffers::Grid NeighbourhoodBuffers::makeGrid(gpu::Device& device, c
   for (std::size_t p = 0; p < points; ++p)
     for (std::size_t k = 0; k < kept; ++k)
       visibility[k * points + p] = grid.visibility[p * grid.visibilityCount() + k];
-  result.visibility = gpu::Buffer(device, "prt.neighbourhood_visibility", visibility);
+  result.visibility = filledBuffer(device, "prt.neighbourhood_visibility", visibility, on_host_);
   const std::size_t stored = std::size_t(grid.light_order * grid.light_order);
   const std::size_t together = std::max<std::size_t>(1, limit / (row_words * 4));
   for (std::size_t first = 0; first < rows; first += together) {
@@ -79,8 +80,8 @@ NeighbourhoodBuffers::Grid NeighbourhoodBuffers::makeGrid(gpu::Device& device, c
       words[w] = glm::packHalf2x16(glm::vec2(value(2 * third), value(2 * third + 1)));
     }
     if (words.empty()) words.push_back(0);
-    result.thrown.push_back(
-        {gpu::Buffer(device, "prt.neighbourhood_thrown", words), std::uint32_t(first), std::uint32_t(count)});
+    result.thrown.push_back({filledBuffer(device, "prt.neighbourhood_thrown", words, on_host_),
+                             std::uint32_t(first), std::uint32_t(count)});
   }
   return result;
 }

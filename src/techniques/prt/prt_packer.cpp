@@ -86,17 +86,9 @@ void Packer::addBlocks(const Part& part, std::uint32_t light, std::uint32_t outp
   }
 }
 
-template <class T>
-gpu::Buffer Packer::bufferOf(const char* what, const std::vector<T>& values) const {
-  gpu::Buffer buffer(device_, name_ + what,
-                     gpu::BufferDesc{.bytes = values.size() * sizeof(T), .host_visible = host_visible_});
-  buffer.upload(values);
-  return buffer;
-}
-
 void Packer::uploadValues() {
-  chunks_.back().direct = bufferOf("_direct", direct_);
-  chunks_.back().indirect = bufferOf("_indirect", indirect_);
+  chunks_.back().direct = filledBuffer(device_, name_ + "_direct", direct_, host_visible_);
+  chunks_.back().indirect = filledBuffer(device_, name_ + "_indirect", indirect_, host_visible_);
   direct_.clear();
   indirect_.clear();
 }
@@ -105,7 +97,7 @@ std::vector<TransferChunk> Packer::finish() {
   uploadValues();
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     chunks_[c].block_count = static_cast<std::uint32_t>(blocks_[c].size());
-    chunks_[c].blocks = bufferOf("_blocks", blocks_[c]);
+    chunks_[c].blocks = filledBuffer(device_, name_ + "_blocks", blocks_[c], host_visible_);
   }
   return std::move(chunks_);
 }

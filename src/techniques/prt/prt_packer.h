@@ -22,6 +22,15 @@ struct TransferChunk {
   std::uint32_t block_count = 0;
 };
 
+/// As large as `values`, and filled with them. `mapped`: the host reads it, too.
+template <class T>
+gpu::Buffer filledBuffer(gpu::Device& device, std::string name, const std::vector<T>& values, bool mapped) {
+  gpu::Buffer buffer(device, std::move(name),
+                     gpu::BufferDesc{.bytes = values.size() * sizeof(T), .host_visible = mapped});
+  buffer.upload(values);
+  return buffer;
+}
+
 /// 32-bit words that so many values take.
 constexpr std::size_t wordCount(std::size_t values, bool half_float) {
   return half_float ? (values + 1) / 2 : values;
@@ -50,8 +59,6 @@ class Packer {
  private:
   void append(const Fill& fill, std::uint32_t first, std::uint32_t count);
   void uploadValues();
-  template <class T>
-  gpu::Buffer bufferOf(const char* what, const std::vector<T>& values) const;
 
   gpu::Device& device_;
   std::string name_;

@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// The twin of prt_vertices.comp.glsl for devices that are the host: a software driver loads lane by lane, the host's vector
+// Twins of prt_vertices.comp.glsl and prt_neighbourhood_points.comp.glsl for devices that are the host: a software driver loads lane by lane, the host's vector
 // units read transfer as fast as memory gives it.
 #pragma once
 
@@ -26,5 +26,17 @@ struct ChunkInMemory {
 /// `first_peak` of them on, where `in_parts`, the sharpest peaks that the others lack. What is not finite stays so.
 void relight(const ChunkInMemory& chunk, std::span<const glm::vec3> lights, std::uint32_t first_peak,
              bool in_parts, std::span<VertexLight> vertex_light);
+
+/// Rows of a neighbourhood's matrices as NeighbourhoodBuffers stores them, in memory.
+struct GridInMemory {
+  const float* visibility = nullptr;      ///< [coefficient][point]
+  const std::uint32_t* thrown = nullptr;  ///< [row][pair of columns][3 words][point]; null: none
+  std::uint32_t points = 0, first_row = 0, row_count = 0;
+  int light_order = 5, field_order = 5;
+};
+
+/// The radiance at the grid's points as halves, on all cores: rows of it are those of the matrices, 3 words each (2 where nothing is
+/// thrown), all rows of a point side by side. `lights`: L, then P row by row.
+void multiplyGrid(const GridInMemory& grid, std::span<const glm::vec3> lights, std::uint32_t* fields);
 
 }  // namespace gloam::prt

@@ -75,16 +75,15 @@ struct Columns {
 
 /// Floats; colored: rows of r, g and b in turn, else one row for all three.
 template <bool colored>
-HWY_INLINE void addFloats(const std::uint32_t* words, std::size_t n, const Light& light, Sums& sums) {
+HWY_INLINE void addFloats(const float* values, std::size_t n, const float* light, Sums& sums) {
   const D d;
-  const auto* values = reinterpret_cast<const float*>(words);
   constexpr std::size_t kStep = colored ? 3 : 1;
   for (std::size_t first = 0; first < kBlockVertices; first += kColumns * kLanes) {
     Columns sum;
     const float* row = values + first;
     for (std::size_t i = 0; i < n; ++i, row += kStep * kBlockVertices) {
-      const V r = hn::Set(d, light.flat[3 * i]), g = hn::Set(d, light.flat[3 * i + 1]),
-              b = hn::Set(d, light.flat[3 * i + 2]);
+      const V r = hn::Set(d, light[3 * i]), g = hn::Set(d, light[3 * i + 1]),
+              b = hn::Set(d, light[3 * i + 2]);
       for (std::size_t k = 0; k < kColumns; ++k) {
         const float* at = row + k * kLanes;
         const V red = hn::LoadU(d, at);
@@ -176,7 +175,7 @@ HWY_INLINE void add(const ChunkInMemory& chunk, std::uint32_t block, const Light
   if (chunk.half_float)
     addHalves<colored>(words, n, light, sums);
   else
-    addFloats<colored>(words, n, light, sums);
+    addFloats<colored>(reinterpret_cast<const float*>(words), n, light.flat, sums);
 }
 
 /// `both`: what is there already is held to 0 or more and added to, held alike (bothParts of prt_ringing.glsl).
@@ -216,6 +215,67 @@ void relightBlocks(const ChunkInMemory& chunk, std::size_t begin, std::size_t en
   }
 }
 
+/// Points that are multiplied together: as many as a block has vertices.
+constexpr std::size_t kTile = kBlockVertices;
+constexpr std::size_t kMostBands = 121, kMostRowWords = 3 * kMost / 2;
+
+/// Rows of `points` numbers each: a tile's of them, side by side. What lies beyond the last point is 0.
+template <class T>
+HWY_INLINE void fetch(const T* from, std::size_t stride, std::size_t rows, std::size_t count, T* to) {
+  for (std::size_t row = 0; row < rows; ++row, from += stride, to += kTile) {
+    std::memcpy(to, from, count * sizeof(T));
+    if (count < kTile) std::fill(to + count, to + kTile, T(0));
+  }
+}
+
+/// Pairs of rows of sums as halves, a word each point.
+HWY_INLINE void putHalves(const float* low, const float* high, std::size_t count, std::size_t stride,
+                          std::uint32_t* to) {
+  const D d;
+  const D16 d16;
+  HWY_ALIGN hwy::float16_t halves[2][kTile];
+  for (std::size_t v = 0; v < kTile; v += kLanes) {
+    hn::StoreU(hn::DemoteTo(d16, hn::LoadU(d, low + v)), d16, halves[0] + v);
+    hn::StoreU(hn::DemoteTo(d16, hn::LoadU(d, high + v)), d16, halves[1] + v);
+  }
+  std::uint16_t bits[2][kTile];
+  std::memcpy(bits, halves, sizeof(bits));
+  for (std::size_t v = 0; v < count; ++v) to[v * stride] = bits[0][v] | std::uint32_t(bits[1][v]) << 16;
+}
+
+void multiplyTiles(const GridInMemory& grid, std::size_t begin, std::size_t end,
+                   std::span<const glm::vec3> lights, std::uint32_t* fields) {
+  const auto columns = std::size_t(grid.light_order * grid.light_order);
+  const auto rows = std::size_t(grid.field_order * grid.field_order);
+  const auto bands = std::size_t(grid.light_order + grid.field_order - 1);
+  const std::size_t kept = bands * bands, row_words = (columns + 1) / 2 * 3;
+  const std::size_t words = grid.thrown ? 3 : 2, stride = rows * words;
+  static const float none[kTile] = {};
+  HWY_ALIGN float visibility[kMostBands * kTile];
+  HWY_ALIGN std::uint32_t thrown[kMostRowWords * kTile];
+  Light light;
+  light.set(lights, 0, columns);
+  Sums direct, indirect;
+  for (std::size_t tile = begin; tile < end; ++tile) {
+    const std::size_t point = tile * kTile, count = std::min(kTile, grid.points - point);
+    fetch(grid.visibility + point, grid.points, kept, count, visibility);
+    for (std::size_t row = 0; row < grid.row_count; ++row) {
+      const std::size_t i = grid.first_row + row;
+      addFloats<false>(visibility, kept, &lights[columns + i * kept].x, direct);
+      std::uint32_t* to = fields + point * stride + i * words;
+      putHalves(direct.of[0], direct.of[1], count, stride, to);
+      if (!grid.thrown) {
+        putHalves(direct.of[2], none, count, stride, to + 1);
+        continue;
+      }
+      fetch(grid.thrown + row * row_words * grid.points + point, grid.points, row_words, count, thrown);
+      addHalves<true>(thrown, columns, light, indirect);
+      putHalves(direct.of[2], indirect.of[0], count, stride, to + 1);
+      putHalves(indirect.of[1], indirect.of[2], count, stride, to + 2);
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace gloam::prt
 HWY_AFTER_NAMESPACE();
@@ -224,6 +284,7 @@ HWY_AFTER_NAMESPACE();
 namespace gloam::prt {
 
 HWY_EXPORT(relightBlocks);
+HWY_EXPORT(multiplyTiles);
 
 void relight(const ChunkInMemory& chunk, std::span<const glm::vec3> lights, std::uint32_t first_peak,
              bool in_parts, std::span<VertexLight> vertex_light) {
@@ -232,6 +293,14 @@ void relight(const ChunkInMemory& chunk, std::span<const glm::vec3> lights, std:
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       HWY_DYNAMIC_DISPATCH(relightBlocks)
                       (chunk, range.begin(), range.end(), lights, first_peak, in_parts, vertex_light);
+                    });
+}
+
+void multiplyGrid(const GridInMemory& grid, std::span<const glm::vec3> lights, std::uint32_t* fields) {
+  const std::size_t tiles = (grid.points + kBlockVertices - 1) / kBlockVertices;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles, 4),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      HWY_DYNAMIC_DISPATCH(multiplyTiles)(grid, range.begin(), range.end(), lights, fields);
                     });
 }
 

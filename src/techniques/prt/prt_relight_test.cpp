@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
+#include <utility>
 
 #include "gpu/format.h"
 #include "math/simd_test_targets.h"
@@ -115,6 +117,67 @@ TEST(PrtRelight, IsThePlainSumOnEveryInstructionSet) {
                                             << half_float << ", in parts " << in_parts);
             expectPlainSums(RandomChunk(n, colored, half_float), in_parts);
           }
+  });
+}
+
+// Points that fill no tile, thrown light and none, in two parts as a device with small buffers has it.
+TEST(PrtRelight, GridsAreThePlainSumOnEveryInstructionSet) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+  onEveryTarget([&](const char* target) {
+    SCOPED_TRACE(target);
+    for (const auto& [a, b, points, has_thrown] : {std::tuple(5, 5, 70, true), std::tuple(3, 5, 8, true),
+                                                   std::tuple(6, 6, 33, true), std::tuple(4, 4, 40, false)}) {
+      const std::size_t columns = std::size_t(a * a), rows = std::size_t(b * b), n = std::size_t(points);
+      const std::size_t kept = std::size_t((a + b - 1) * (a + b - 1)), pairs = (columns + 1) / 2,
+                        words = has_thrown ? 3 : 2;
+      std::vector<float> visibility(kept * n);
+      for (float& v : visibility) v = value(random);
+      std::vector<glm::vec3> lights(columns + rows * kept);
+      for (glm::vec3& light : lights) light = {value(random), value(random), value(random)};
+      std::vector<std::uint32_t> thrown(has_thrown ? rows * pairs * 3 * n : 0);
+      const auto halfOf = [&](std::size_t i, std::size_t j, std::size_t c, std::size_t p) {
+        const std::size_t number = 3 * (j % 2) + c;
+        return std::pair((((i * pairs + j / 2) * 3) + number / 2) * n + p, number % 2 * 16);
+      };
+      for (std::size_t i = 0; has_thrown && i < rows; ++i)
+        for (std::size_t j = 0; j < columns; ++j)
+          for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t p = 0; p < n; ++p) {
+              const auto [word, shift] = halfOf(i, j, c, p);
+              thrown[word] |= std::uint32_t(gpu::halfFromFloat(value(random))) << shift;
+            }
+      std::vector<std::uint32_t> fields(n * rows * words, 0xffffffffu);
+      GridInMemory grid{.visibility = visibility.data(),
+                        .points = std::uint32_t(points),
+                        .light_order = a,
+                        .field_order = b};
+      for (const std::size_t first : {std::size_t(0), rows / 3}) {
+        grid.first_row = std::uint32_t(first);
+        grid.row_count = std::uint32_t(first == 0 ? rows / 3 : rows - first);
+        if (has_thrown) grid.thrown = thrown.data() + first * pairs * 3 * n;
+        multiplyGrid(grid, lights, fields.data());
+      }
+      for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t i = 0; i < rows; ++i) {
+          double want[6] = {};
+          for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t k = 0; k < kept; ++k)
+              want[c] += double(visibility[k * n + p]) * lights[columns + i * kept + k][int(c)];
+            for (std::size_t j = 0; has_thrown && j < columns; ++j) {
+              const auto [word, shift] = halfOf(i, j, c, p);
+              want[3 + c] +=
+                  double(gpu::floatFromHalf(std::uint16_t(thrown[word] >> shift))) * lights[j][int(c)];
+            }
+          }
+          for (std::size_t h = 0; h < 2 * words; ++h) {
+            const float got =
+                gpu::floatFromHalf(std::uint16_t(fields[(p * rows + i) * words + h / 2] >> (h % 2 * 16)));
+            ASSERT_NEAR(got, want[h], 1e-3 * std::abs(want[h]) + 1e-4)
+                << a << " " << b << " point " << p << " row " << i;
+          }
+        }
+    }
   });
 }
 
