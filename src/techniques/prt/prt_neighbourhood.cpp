@@ -183,13 +183,15 @@ void NeighbourhoodPasses::findReaders(const TransferBuffers& transfer) {
 }
 
 void NeighbourhoodPasses::turn() {
-  const gpu::BufferRef rotations = graph_.upload("prt.neighbourhood_rotations", rotations_);
   const std::size_t bytes = std::size_t(radiance_words_) * 4;
   if (bytes > graph_.device().limits().max_storage_bytes)
     throw Error("technique prt", "the neighbourhoods that objects stand in take " +
                                      std::to_string(bytes >> 20) +
                                      " MiB; a buffer of this device holds less: bake fewer points");
-  radiance_ = graph_.create("prt.neighbourhood_radiance", gpu::BufferDesc{.bytes = bytes});
+  radiance_ = graph_.create("prt.neighbourhood_radiance",
+                            gpu::BufferDesc{.bytes = bytes, .host_visible = buffers_.onHost()});
+  if (buffers_.onHost()) return turnOnHost();
+  const gpu::BufferRef rotations = graph_.upload("prt.neighbourhood_rotations", rotations_);
   for (const NeighbourhoodTurn& params : turns_) {
     graph_.compute("prt.neighbourhood_turn", prt_neighbourhood_turn_spv)
         .specialize("field_order", buffers_.fieldOrder())
@@ -200,6 +202,21 @@ void NeighbourhoodPasses::turn() {
         .push(params)
         .dispatch((params.points + 63) / 64, std::uint32_t(buffers_.fieldOrder() * buffers_.fieldOrder()));
   }
+}
+
+void NeighbourhoodPasses::turnOnHost() {
+  auto& pass = graph_.host("prt.neighbourhood_turn");
+  pass.read(fields_).write(radiance_);
+  pass.run([turns = turns_, rotations = rotations_, &buffers = buffers_, fields = fields_,
+            radiance = radiance_](gpu::HostAccess& access) {
+    for (const NeighbourhoodTurn& turn : turns)
+      turnGrid({.fields = access.map<std::uint32_t>(fields).data() + turn.first_in,
+                .rotation = rotations.data() + turn.first_rotation,
+                .radiance = access.map<std::uint32_t>(radiance).data() + turn.first_out,
+                .points = turn.points,
+                .words_of_row = buffers.hasThrown() ? 3u : 2u,
+                .field_order = buffers.fieldOrder()});
+  });
 }
 
 void NeighbourhoodPasses::lightVertices(const TransferBuffers& transfer, gpu::BufferRef vertex_light) {

@@ -71,6 +71,7 @@ class NeighbourhoodPasses {
   std::uint32_t addReader(std::size_t carrier, const glm::mat4& world_from_place);
   void findReaders(const TransferBuffers& transfer);
   void turn();
+  void turnOnHost();
 
   gpu::FrameGraph& graph_;
   const frame::FrameInputs& inputs_;

@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Twins of prt_vertices.comp.glsl and prt_neighbourhood_points.comp.glsl for devices that are the host: a software driver loads lane by lane, the host's vector
+// Twins of prt_vertices, prt_neighbourhood_points and prt_neighbourhood_turn (.comp.glsl) for devices that are the host: a software driver loads lane by lane, the host's vector
 // units read transfer as fast as memory gives it.
 #pragma once
 
@@ -38,5 +38,16 @@ struct GridInMemory {
 /// The radiance at the grid's points as halves, on all cores: rows of it are those of the matrices, 3 words each (2 where nothing is
 /// thrown), all rows of a point side by side. `lights`: L, then P row by row.
 void multiplyGrid(const GridInMemory& grid, std::span<const glm::vec3> lights, std::uint32_t* fields);
+
+/// Radiance as multiplyGrid() leaves it, and a rotation: (2l + 1)^2 numbers a band, row after row.
+struct GridToTurn {
+  const std::uint32_t* fields = nullptr;
+  const float* rotation = nullptr;
+  std::uint32_t* radiance = nullptr;  ///< as many words as `fields`
+  std::uint32_t points = 0;
+  std::uint32_t words_of_row = 3;
+  int field_order = 5;
+};
+void turnGrid(const GridToTurn& grid);
 
 }  // namespace gloam::prt

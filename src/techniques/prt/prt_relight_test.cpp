@@ -181,6 +181,48 @@ TEST(PrtRelight, GridsAreThePlainSumOnEveryInstructionSet) {
   });
 }
 
+TEST(PrtRelight, GridsTurnAsTheirBandsDo) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+  onEveryTarget([&](const char* target) {
+    SCOPED_TRACE(target);
+    for (const auto& [order, words] :
+         {std::tuple(1, 3u), std::tuple(5, 3u), std::tuple(5, 2u), std::tuple(6, 3u)}) {
+      constexpr std::uint32_t kPoints = 37;
+      const std::size_t rows = std::size_t(order * order), per_point = rows * words;
+      std::vector<float> rotation;
+      for (int l = 0; l < order; ++l)
+        for (int k = 0; k < (2 * l + 1) * (2 * l + 1); ++k) rotation.push_back(value(random));
+      std::vector<std::uint32_t> fields(kPoints * per_point), radiance(fields.size() + 1, 0xffffffffu);
+      for (std::uint32_t& word : fields)
+        word = gpu::halfFromFloat(value(random)) | std::uint32_t(gpu::halfFromFloat(value(random))) << 16;
+      turnGrid({.fields = fields.data(),
+                .rotation = rotation.data(),
+                .radiance = radiance.data(),
+                .points = kPoints,
+                .words_of_row = words,
+                .field_order = order});
+      const auto at = [&](const std::vector<std::uint32_t>& numbers, std::size_t p, std::size_t row,
+                          std::size_t h) {
+        return gpu::floatFromHalf(
+            std::uint16_t(numbers[p * per_point + row * words + h / 2] >> (h % 2 * 16)));
+      };
+      EXPECT_EQ(radiance.back(), 0xffffffffu);
+      for (std::size_t p = 0; p < kPoints; ++p) {
+        const float* r = rotation.data();
+        for (std::size_t l = 0; l < std::size_t(order); ++l)
+          for (std::size_t row = 0; row < 2 * l + 1; ++row, r += 2 * l + 1)
+            for (std::size_t h = 0; h < 2 * words; ++h) {
+              double want = 0.0;
+              for (std::size_t b = 0; b < 2 * l + 1; ++b) want += double(r[b]) * at(fields, p, l * l + b, h);
+              ASSERT_NEAR(at(radiance, p, l * l + row, h), want, 1e-3 * std::abs(want) + 1e-4)
+                  << p << " " << l;
+            }
+      }
+    }
+  });
+}
+
 // Both ways draw the same picture; light that rings is taken in parts.
 TEST(PrtRelight, HostAndDeviceAgree) {
   Scene scene = loadScene("builtin:furnace");
