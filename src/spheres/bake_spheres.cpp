@@ -41,10 +41,11 @@ Progress part(const Progress& whole, double from, double to, const std::string& 
 void fit(Object& object, const SphereOptions& options, const Scene& scene, const Progress& progress) {
   const spheres::Solid& solid = object.solid;
   const spheres::Motion motion = motionOf(object, scene);
-  const std::vector<spheres::Ball> balls = findBalls(
-      solid,
-      {object.count, options.seed, options.samples, options.effort, motion.moved.empty() ? nullptr : &motion},
-      progress);
+  const std::vector<spheres::Ball> balls =
+      findBalls(solid,
+                {object.round() ? 1 : object.count, options.seed, options.samples, options.effort,
+                 motion.moved.empty() ? nullptr : &motion},
+                progress);
   const spheres::Measured measured = measureBalls(solid, balls, options.seed, progress);
   SphereSet& set = object.set;
   const double unit3 = double(solid.scale) * double(solid.scale) * double(solid.scale);

@@ -14,12 +14,11 @@
 namespace gloam::spheres {
 namespace {
 
-constexpr float kRound = 0.02f;  // a bounding sphere that holds no more air than this share: a ball
 constexpr int kCurvePoints = 2000, kCurveEnd = 64;
 constexpr float kLooseEnough =
     3.0f;  // air over volume: drawn in (renderer/shadow_radii), such spheres still look alike
 constexpr float kLooseLimbs = 1.3f;        // of what deforms: a foot, and the shadow at it, takes two spheres
-constexpr float kWorth = 0.12f;             // air over volume that a second sphere takes off: it is given
+constexpr float kWorth = 0.12f;            // air over volume that a second sphere takes off: it is given
 constexpr long kFewest = 26, kMost = 128;  // spheres of a scene, where their number is not given
 constexpr float kEvenStretch = 0.98f;      // least over greatest stretch that still counts as even
 
@@ -118,7 +117,7 @@ float outsideAt(const Object& object, int k) {
 int neededCount(const Object& object) {
   const float volume = object.solid.volume * object.world_scale3;
   const float loose = object.set.deforms ? kLooseLimbs : kLooseEnough;
-  if (object.outside.front() < kRound * volume) return 1;
+  if (object.round()) return 1;
   int k = outsideAt(object, 1) - outsideAt(object, 2) > kWorth * volume ? 2 : 1;
   while (k < kCurveEnd && outsideAt(object, k) > loose * volume) ++k;
   return k;
@@ -139,8 +138,8 @@ void deal(const std::vector<Object*>& casters, int count, bool among_others) {
   // Where one more sphere takes off most; large pieces first, as long as one fits. What holds less air than its volume is tight
   // already, and counts by as much.
   const auto gain = [](const Object& object) {
+    if (object.round()) return 0.0f;
     const float volume = object.solid.volume * object.world_scale3;
-    if (object.outside.front() < kRound * volume) return 0.0f;
     const float air = outsideAt(object, object.count);
     return (air - outsideAt(object, object.count + 1)) * std::min(1.0f, air / volume);
   };

@@ -19,6 +19,8 @@ struct Object {
   std::vector<float> outside;  ///< volume outside it of 1, 2, 4 … spheres, roughly, in the world
   int count = 0;               ///< spheres it gets
   bool casts() const { return set.receive_only.empty(); }
+  /// A ball: one sphere holds next to no air beside it, more would do no better.
+  bool round() const { return outside.front() < 0.02f * solid.volume * world_scale3; }
 };
 
 /// Where the vertices of a deforming object are at some instants of the scene's animation, in units of its solid; each

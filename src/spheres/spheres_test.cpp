@@ -39,6 +39,14 @@ TEST(Spheres, ABallNeedsOne) {
   EXPECT_NEAR(set.spheres[0].radius, 2.0f, 0.01f);
 }
 
+TEST(Spheres, ABallAskedForThousandsTakesOneAndSaysSo) {
+  const Scene scene = sceneOf(shapes::icosphere(1.0f, 20));
+  const SceneSpheres spheres = bakeSpheres(scene, quick(4096));
+  EXPECT_EQ(spheres.count(), 1);
+  ASSERT_EQ(spheres.warnings.size(), 1u);
+  EXPECT_NE(spheres.warnings[0].find("1 sphere of 4096 serve"), std::string::npos);
+}
+
 TEST(Spheres, OneRoundACubeIsItsCircumscribedBall) {
   const SphereSet set = fitOne(shapes::box({0, 0, 0}, {1, 1, 1}, 0.25f), quick(1));
   EXPECT_NEAR(set.spheres.at(0).radius, std::sqrt(0.75f), 0.01f);
