@@ -26,7 +26,7 @@ struct Pictures {
   gpu::ImageRef direct, indirect;
 };
 
-/// One that is shown is black where nothing is written: lists fill a part of theirs.
+/// One that is shown is black where nothing is written: lists fill a part of theirs. To be made before the pass that writes it.
 gpu::ImageRef createPicture(const Step& step, const std::string& name, VkFormat format, int width,
                             int height) {
   const gpu::ImageRef image =
@@ -40,6 +40,8 @@ Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& point
     return createPicture(step, name + what, format, points.width, points.height);
   };
   const Pictures got{image("direct", kHalves), image("indirect", kHalves)};
+  const gpu::ImageRef visibility = image("visibility", VK_FORMAT_R32_SFLOAT),
+                      unblocked = image("unblocked", kHalves);
   const bool is_quick = quick(step.blocking, step.visibility, step.rows.objects.size());
   const bool hierarchy = step.params.coarse > 0 && !points.groups;  // listed ones are no clusters
   Cuts cuts{step.levels, step.levels};
@@ -73,8 +75,8 @@ Pictures recordPoints(const Step& step, gpu::BufferRef sent, const Points& point
       .read("light", step.light)
       .write("direct", got.direct)
       .write("indirect", got.indirect)
-      .write("visibility", image("visibility", VK_FORMAT_R32_SFLOAT))
-      .write("unblocked", image("unblocked", kHalves))
+      .write("visibility", visibility)
+      .write("unblocked", unblocked)
       .push(step.params);
   if (points.groups)
     pass.dispatchIndirect(points.groups);

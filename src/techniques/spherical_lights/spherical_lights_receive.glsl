@@ -50,10 +50,20 @@ Gathered receive(vec3 position, vec3 normal) {
     }
   }
   const uint groups = send ? push.params.objects : 0u;
-  for (uint o = 0u; o < groups; ++o) {
-    uint rank = 0u;
-    for (uint q = 0u; q < groups; ++q) rank += far[q] < far[o] || (far[q] == far[o] && q < o) ? 1u : 0u;
-    order[rank] = o;
+  // Ranks of eight at once: an array that a variable indexes costs more to read than to compare.
+  for (uint o = 0u; o < groups; o += 8u) {
+    uvec4 low = o + uvec4(0u, 1u, 2u, 3u), high = low + 4u, ranks = uvec4(0u), more = uvec4(0u);
+    vec4 a = vec4(far[o], far[o + 1u], far[o + 2u], far[o + 3u]);
+    vec4 b = vec4(far[o + 4u], far[o + 5u], far[o + 6u], far[o + 7u]);
+    for (uint q = 0u; q < groups; ++q) {
+      vec4 f = vec4(far[q]);
+      ranks += mix(uvec4(lessThan(f, a)), uvec4(lessThanEqual(f, a)), lessThan(uvec4(q), low));
+      more += mix(uvec4(lessThan(f, b)), uvec4(lessThanEqual(f, b)), lessThan(uvec4(q), high));
+    }
+    for (uint k = 0u; k < 8u; ++k) {
+      uint rank = k < 4u ? ranks[k] : more[k - 4u];
+      if (o + k < groups) order[rank] = o + k;
+    }
   }
   // In place of each group's logs the sum of those before it.
   float running[16] = GLOAM_ARRAY_OF(kNothing);
