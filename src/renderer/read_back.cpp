@@ -12,7 +12,7 @@ namespace gloam {
 
 namespace {
 
-/// The first `channels` of an image on the device.
+/// The first `channels` of an image on the device; of one in three dimensions the slice in the middle.
 Image download(const gpu::ImageRef& ref, int channels) {
   std::vector<float> values = ref.image().downloadFloats(ref.range().mip, ref.range().layer);
   const int stored = gpu::channelCount(ref.format());
@@ -20,6 +20,11 @@ Image download(const gpu::ImageRef& ref, int channels) {
   image.width = ref.width();
   image.height = ref.height();
   image.channels = channels;
+  const std::size_t slice = image.pixelCount() * std::size_t(stored);
+  if (const std::size_t slices = values.size() / slice; slices > 1) {
+    const auto middle = values.begin() + std::ptrdiff_t(slices / 2 * slice);
+    values = std::vector<float>(middle, middle + std::ptrdiff_t(slice));
+  }
   if (stored == channels) {
     image.pixels = std::move(values);
     return image;
