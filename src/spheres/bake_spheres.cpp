@@ -87,7 +87,7 @@ void remark(const Object& object, Warnings& warnings) {
   }
   const std::size_t got = object.set.spheres.size();
   if (int(got) < object.count) {
-    say(fmt::format("{} of {} serve, more would hold no less air", spheresText(got), object.count));
+    say(fmt::format("{} of {} serve, the search found no use for more", spheresText(got), object.count));
   }
 }
 
