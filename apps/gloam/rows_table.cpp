@@ -65,7 +65,7 @@ constexpr Row kPrecomputedTransfer[] = {
      "every frame with nothing baked again",
      kYes, "",
      "gloam render cornell.glb --technique prt --light disc?azimuth=0:0,2:360 --animate 0:2 -o turn.mp4",
-     "prt: Prt; scene: DistantLights; cli_lights: Lights"},
+     "prt: Prt, PrtRelight; scene: DistantLights; cli_lights: Lights"},
     {"PRT-5",
      "Local light: radiance that arrives at sampled points near the object each frame, blended over the "
      "vertices; objects that move apart light one another",

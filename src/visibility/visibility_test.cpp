@@ -95,13 +95,15 @@ std::vector<std::uint32_t> slowly(const WorldTracer& tracer, const Asked& asked)
       glm::vec3 to = end.position;
       float distance = INFINITY;
       if (end.kind != kSightDirectional) {
-        to = end.position - origin;
-        const float side = glm::dot(to, end.normal) > 0.0f ? -1.0f : 1.0f;
+        const glm::vec3 from_point = end.position - point.position;
+        const float side = glm::dot(from_point, end.normal) > 0.0f ? -1.0f : 1.0f;
         if (end.kind == kSightSurface && side < 0.0f) continue;
-        if (glm::dot(to, point.normal) <= 0.0f) continue;
-        if (end.kind != kSightLamp) to += side * end.offset * end.normal;
-        distance = glm::length(to);
-        to /= distance;
+        if (glm::dot(from_point, point.normal) <= 0.0f) continue;
+        const float before = end.kind == kSightLamp ? 0.0f : end.offset;
+        to = end.position + side * before * end.normal - origin;
+        const float length = glm::length(to);
+        to /= length;
+        distance = std::max(length - before, 0.0f);
       } else if (glm::dot(to, point.normal) <= 0.0f) {
         continue;
       }
