@@ -92,9 +92,9 @@ std::vector<Ordered> inOrder(std::span<const SightPoint> points, std::size_t set
   return order;
 }
 
-/// Sixteen points of one set: where their rays begin, `lift` along the normal above the points themselves.
+/// Sixteen points of one set.
 struct alignas(64) PointLanes {
-  float x[kLanes], y[kLanes], z[kLanes], lift[kLanes];
+  float x[kLanes], y[kLanes], z[kLanes];
   float normal_x[kLanes], normal_y[kLanes], normal_z[kLanes];  // 0 in lanes that are empty
 };
 
@@ -107,25 +107,20 @@ void fill(PointLanes& lanes, trace::RayPacket& packet, std::span<const SightPoin
     lanes.x[i] = packet.origin_x[i] = origin.x;
     lanes.y[i] = packet.origin_y[i] = origin.y;
     lanes.z[i] = packet.origin_z[i] = origin.z;
-    lanes.lift[i] = there ? point.offset : 0.0f;
     lanes.normal_x[i] = there ? point.normal.x : 0.0f;
     lanes.normal_y[i] = there ? point.normal.y : 0.0f;
     lanes.normal_z[i] = there ? point.normal.z : 0.0f;
   }
 }
 
-/// Rays from points before whose surface the light stands, and which stand where it sends to: a bit each. Points themselves are asked, not
-/// where rays begin: that may lie above a light which is near.
+/// Rays from points before whose surface the light stands, and which stand where it sends to: a bit each.
 std::uint32_t makeRays(const PointLanes& points, const LightEnd& light, trace::RayPacket& packet,
                        trace::LaneMask& mask) {
   for (int i = 0; i < kLanes; ++i) {
     const float px = light.position.x - light.near * points.x[i],
                 py = light.position.y - light.near * points.y[i],
                 pz = light.position.z - light.near * points.z[i];
-    const float nx = points.normal_x[i], ny = points.normal_y[i], nz = points.normal_z[i];
-    const float lift = light.near * points.lift[i];
-    const float facing = light.normal.x * (px + lift * nx) + light.normal.y * (py + lift * ny) +
-                         light.normal.z * (pz + lift * nz);
+    const float facing = light.normal.x * px + light.normal.y * py + light.normal.z * pz;
     const float side = light.offset * (facing > 0.0f ? 1.0f - 2.0f * light.both : 1.0f);
     const float x = px + side * light.normal.x, y = py + side * light.normal.y,
                 z = pz + side * light.normal.z;
@@ -135,7 +130,9 @@ std::uint32_t makeRays(const PointLanes& points, const LightEnd& light, trace::R
     packet.direction_y[i] = y * inverse;
     packet.direction_z[i] = z * inverse;
     packet.t_far[i] = light.near > 0.0f ? std::max(length - light.offset, 0.0f) : kFar;
-    const bool seen = (facing < light.limit) & (nx * px + ny * py + nz * pz + lift > 0.0f) & (squared > 0.0f);
+    const bool seen = (facing < light.limit) &
+                      (points.normal_x[i] * px + points.normal_y[i] * py + points.normal_z[i] * pz > 0.0f) &
+                      (squared > 0.0f);
     mask.lane[i] = -std::int32_t(seen);
   }
   std::uint32_t bits = 0;

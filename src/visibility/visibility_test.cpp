@@ -95,12 +95,12 @@ std::vector<std::uint32_t> slowly(const WorldTracer& tracer, const Asked& asked)
       glm::vec3 to = end.position;
       float distance = INFINITY;
       if (end.kind != kSightDirectional) {
-        const glm::vec3 from_point = end.position - point.position;
-        const float side = glm::dot(from_point, end.normal) > 0.0f ? -1.0f : 1.0f;
+        to = end.position - origin;
+        const float side = glm::dot(to, end.normal) > 0.0f ? -1.0f : 1.0f;
         if (end.kind == kSightSurface && side < 0.0f) continue;
-        if (glm::dot(from_point, point.normal) <= 0.0f) continue;
+        if (glm::dot(to, point.normal) <= 0.0f) continue;
         const float before = end.kind == kSightLamp ? 0.0f : end.offset;
-        to = end.position + side * before * end.normal - origin;
+        to += side * before * end.normal;
         const float length = glm::length(to);
         to /= length;
         distance = std::max(length - before, 0.0f);

@@ -31,13 +31,12 @@ SightEnd endAt(uint light) {
 bool sees(SightPoint point, SightEnd end) {
   vec3 origin = point.position + point.offset * point.normal;
   bool surface = end.kind == kSightSurface || end.kind == kSightBothSides, far = end.kind == kSightDirectional;
-  // The point itself is asked where it stands, not where its rays begin: that may lie above a light which is near.
-  vec3 from_point = end.position - (far ? vec3(0.0) : point.position);
-  float facing = surface ? dot(end.normal, from_point) : -1.0;
-  if (end.kind >= kSightNothing || dot(point.normal, from_point) <= 0.0) return false;
+  vec3 between = end.position - (far ? vec3(0.0) : origin);
+  float facing = surface ? dot(end.normal, between) : -1.0;
+  if (end.kind >= kSightNothing || dot(point.normal, between) <= 0.0) return false;
   if (end.kind == kSightSurface && facing >= 0.0) return false;
   float side = surface ? (facing > 0.0 ? -end.offset : end.offset) : 0.0;
-  vec3 between = end.position - (far ? vec3(0.0) : origin) + side * end.normal;
+  between += side * end.normal;
   float distance = length(between);
   return distance > 0.0 && !occluded(origin, between / distance, far ? 1e30 : max(distance - abs(side), 0.0));
 }
