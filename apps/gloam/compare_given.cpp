@@ -63,8 +63,20 @@ void checkGivenReference(const ReferencePicture& given, const CompareChoice& cho
         "{} has no layer seen: lamps that are seen themselves count in measures, and make errors look small",
         choice.reference));
   }
+  if (given.background && given.layers.find("object") == nullptr) {
+    console.remark(
+        fmt::format("{} has no channel object.id: the light behind the scene counts in measures, and makes "
+                    "errors look small",
+                    choice.reference));
+  }
   for (const Contender& contender : contenders) {
-    imageOf(given.layers, both(coverageOf(contender), stage.in_scene), choice.reference);
+    const Coverage held = both(coverageOf(contender), stage.in_scene);
+    imageOf(given.layers, held, choice.reference);
+    varianceOf(given.layers, held, choice.reference);
+  }
+  if (!varianceOf(given.layers, coverageOf(given.layers, choice.reference), choice.reference)) {
+    console.remark(
+        fmt::format("{} does not say how noisy it is: an error may be its noise", choice.reference));
   }
 }
 

@@ -14,11 +14,10 @@ namespace {
 
 const std::vector<std::string> kRgb = {"R", "G", "B"};
 
-/// Measures of one layer of a pair of files, and the FLIP map for the page.
+/// Measures of one layer of a pair of files, and the FLIP map for the page, which calls it `name`.
 LayerError measureLayer(const LayeredImage& a, const LayeredImage& reference, const std::string& layer,
-                        const Image& mask, const Progress& progress, PagePicture& picture) {
+                        const char* name, const Image& mask, const Progress& progress, PagePicture& picture) {
   const Image ours = a.image(layer, kRgb, "picture"), truth = reference.image(layer, kRgb, "reference");
-  const std::string name = layer.empty() ? "sum" : layer;
   MetricOptions options;
   options.mask = mask;
   // As `gloam diff` takes numbers from its command line: its answers are to be the same to the last digit.
@@ -45,8 +44,11 @@ std::string bouncesText(int bounces) {
 void holdBounces(const Comparison& work, const Contender& contender, TechniqueResult& result) {
   if (!anyIndirect(coverageOf(contender))) return;
   const int own = bouncesOf(contender, work.stage.baked_bounces), there = work.stage.bounces;
-  result.bounces = there;
-  if (own > there) {
+  result.bounces = there, result.own_bounces = own;
+  if (own > 0 && there == 0) {
+    result.direct_alone = true;
+    result.notes.push_back("the reference has no bounces: direct light alone is measured");
+  } else if (own > there) {
     result.notes.push_back(fmt::format("its light has {}, the reference {}: what is more counts as error",
                                        bouncesText(own), there));
   } else if (own < there && (own == 0 || tellsBounces(work.reference, result.covers, own))) {
@@ -110,17 +112,20 @@ void measureAll(Comparison& work, const Progress& progress) {
       throw Error(work.reference.file.string(), "shows no surface: nothing to compare");
     PagePicture picture = lightPicture(ours, result.label);
     picture.technique = int(i);
-    const auto measured = [&](const char* layer, double from, double to) {
-      return measureLayer(ours, truth, layer, mask,
+    const auto measured = [&](const char* layer, const char* name, double from, double to) {
+      return measureLayer(ours, truth, layer, name, mask,
                           stretch(progress, (double(i) + from) / count, (double(i) + to) / count), picture);
     };
-    result.sum = measured("", 0.0, 0.34);
+    const char* all = result.direct_alone ? "direct" : "";
+    if (result.direct_alone) std::ranges::fill(picture.indirect.pixels, 0.0f);
+    result.sum = measured(all, "sum", 0.0, 0.34);
     result.reference_noise = relativeNoise(work.reference, result.covers, result.bounces,
-                                           truth.image("", kRgb, "reference"), mask);
-    if (anyDirect(result.covers)) result.direct = measured("direct", 0.34, 0.67);
-    if (anyIndirect(result.covers)) result.indirect = measured("indirect", 0.67, 1.0);
-    result.command = fmt::format("gloam diff {} {} --foreground", shellWord(result.file.string()),
-                                 shellWord(result.reference_file.string()));
+                                           truth.image(all, kRgb, "reference"), mask);
+    if (anyDirect(result.covers)) result.direct = measured("direct", "direct", 0.34, 0.67);
+    if (anyIndirect(result.covers)) result.indirect = measured("indirect", "indirect", 0.67, 1.0);
+    result.command =
+        fmt::format("gloam diff {} {} --foreground{}", shellWord(result.file.string()),
+                    shellWord(result.reference_file.string()), result.direct_alone ? " --layer direct" : "");
     work.page.pictures.push_back(std::move(picture));
   }
 }

@@ -87,7 +87,10 @@ std::vector<Contender> planContenders(const std::string& list, const TechniqueCh
   const auto add = [&](Contender contender) {
     for (const Contender& other : contenders) {
       if (other.technique == contender.technique && other.settings.list() == contender.settings.list()) {
-        throw Error("--techniques", fmt::format("'{}' is the same as '{}'", contender.label, other.label));
+        throw Error("--techniques",
+                    contender.label == other.label
+                        ? fmt::format("'{}' stands twice", contender.label)
+                        : fmt::format("'{}' is the same as '{}'", contender.label, other.label));
       }
     }
     contenders.push_back(std::move(contender));
@@ -174,6 +177,11 @@ bool lights(const Contender& contender, const Coverage& in_scene) {
 void leaveOutDark(std::vector<Contender>& contenders, const Coverage& in_scene, Console& console) {
   leaveOut(contenders, console, fmt::format("covers nothing of {}", fmt::join(coverageNames(in_scene), ", ")),
            [&](const Contender& contender) { return !lights(contender, in_scene); });
+  leaveOut(contenders, console, "its bake would hold nothing of the light that is there",
+           [&](const Contender& contender) {
+             const Coverage held = both(coverageOf(contender), in_scene);
+             return contender.technique->needs_bake && !held.environment_direct && !anyIndirect(held);
+           });
 }
 
 void leaveOutUnbakeable(std::vector<Contender>& contenders, const Scene& scene, const PosedScene& posed,

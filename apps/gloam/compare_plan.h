@@ -50,7 +50,8 @@ bool anyIndirect(const Coverage& coverage);
 Coverage directOf(const Coverage& coverage);
 
 bool lights(const Contender& contender, const Coverage& in_scene);
-/// Takes out those that nobody named and that cover none of the light, with a line; all stay where none would be left.
+/// Takes out those that nobody named and that cover none of the light, or would bake for nothing, with a line; all stay where none
+/// would be left.
 void leaveOutDark(std::vector<Contender>& contenders, const Coverage& in_scene, Console& console);
 /// The same for those that need a bake, where the scene holds nothing rigid that could be baked. Throws Error where one was
 /// named.

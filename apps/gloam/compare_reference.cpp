@@ -63,19 +63,36 @@ ReferencePicture pictureOf(LayeredImage layers, const fs::path& file) {
   return picture;
 }
 
+/// Of variance nothing below 0; it is infinite where a pixel has one sample: not known.
 void requireFinite(const LayeredImage& image, const fs::path& file) {
   const std::size_t width = std::size_t(image.width);
   for (const Layer& layer : image.layers) {
-    if (layer.name == "variance") continue;  // infinite where a pixel has one sample: not known
-    const auto bad = std::ranges::find_if(layer.pixels, [](float value) { return !std::isfinite(value); });
+    const bool variance = layer.name == "variance";
+    const auto bad = std::ranges::find_if(
+        layer.pixels, [&](float value) { return variance ? !(value >= 0.0f) : !std::isfinite(value); });
     if (bad == layer.pixels.end()) continue;
     const std::size_t at = std::size_t(bad - layer.pixels.begin()), channels = layer.channels.size();
     const std::size_t pixel = at / channels;
     const std::string& channel = layer.channels[at % channels];
+    throw Error(file.string(), fmt::format("channel {}{}{} is {} at pixel {}, {}: no reference", layer.name,
+                                           layer.name.empty() ? "" : ".", channel,
+                                           std::isnan(*bad)   ? "not a number"
+                                           : std::isinf(*bad) ? "infinite"
+                                                              : "below 0",
+                                           pixel % width, pixel / width));
+  }
+}
+
+/// Numbers of objects tell surfaces from the sky and lamps that are seen from what these light: a file that has what is seen apart
+/// must have them too, else such pixels would be measured and make errors look small.
+void requireObjects(const LayeredImage& image, const fs::path& file) {
+  const Layer* objects = image.find("object");
+  if (objects == nullptr ? image.find("seen") != nullptr
+                         : objects->ids.size() != std::size_t(image.width) * std::size_t(image.height)) {
     throw Error(file.string(),
-                fmt::format("channel {}{}{} is {} at pixel {}, {}: no reference", layer.name,
-                            layer.name.empty() ? "" : ".", channel,
-                            std::isnan(*bad) ? "not a number" : "infinite", pixel % width, pixel / width));
+                fmt::format("channel object.id {}; expected it as whole numbers (uint), as gloam reference "
+                            "writes it: it tells which pixels are measured",
+                            objects == nullptr ? "is missing" : "holds no whole numbers"));
   }
 }
 
@@ -83,6 +100,7 @@ void requireFinite(const LayeredImage& image, const fs::path& file) {
 void requireWhole(const LayeredImage& image, const fs::path& file) {
   image.image("", {"R", "G", "B", "A"}, file.string());
   for (const char* name : {"direct", "indirect"}) image.image(name, {"R", "G", "B"}, file.string());
+  requireObjects(image, file);
   const std::string said = textOf(image, "gloam.size"), is = fmt::format("{}x{}", image.width, image.height);
   if (!said.empty() && said != is) {
     throw Error(

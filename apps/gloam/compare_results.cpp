@@ -61,6 +61,7 @@ Json techniqueJson(const TechniqueResult& result) {
   json["covers"] = coverageNames(result.covers);
   json["leaves_out"] = coverageNames(result.missing);
   json["bounces"] = result.bounces;
+  json["own_bounces"] = result.own_bounces;
   json["reference_noise"] = orNull(result.reference_noise);
   json["bake_note"] = result.bake_note;
   json["notes"] = result.notes;
@@ -149,7 +150,9 @@ std::vector<std::string> noteLines(const CompareResults& results) {
       const bool of_all = std::ranges::all_of(results.techniques, [&](const TechniqueResult& other) {
         return other.name != result.name || std::ranges::find(other.notes, note) != other.notes.end();
       });
-      const std::string line = fmt::format("{}: {}", of_all ? result.name : result.label, note);
+      const std::string& who = of_all ? result.name : result.label;
+      const bool says_who = note.starts_with(result.name + ":");
+      const std::string line = says_who ? note : fmt::format("{}: {}", who, note);
       if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
     }
   }
@@ -181,10 +184,12 @@ std::string noiseRemark(const CompareResults& results) {
   if (hidden == 0) return "";
   const std::string low = fmt::format("{:.2g}", 100.0 * least), high = fmt::format("{:.2g}", 100.0 * most);
   return fmt::format(
-      "{} of {} errors {} not clearly above the noise of what {} held to ({} %): a reference of "
-      "more samples (--spp) tells more",
-      hidden, results.techniques.size(), hidden == 1 ? "is" : "are", hidden == 1 ? "it is" : "they are",
-      low == high ? low : low + " to " + high);
+      "{} not clearly above the noise of what {} held to ({} %): a reference of more samples (--spp) tells "
+      "more",
+      results.techniques.size() == 1
+          ? std::string("the error is")
+          : fmt::format("{} of {} errors {}", hidden, results.techniques.size(), hidden == 1 ? "is" : "are"),
+      hidden == 1 ? "it is" : "they are", low == high ? low : low + " to " + high);
 }
 
 }  // namespace gloam::cli

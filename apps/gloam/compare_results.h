@@ -27,9 +27,11 @@ struct TechniqueResult {
   Json passes = Json::array();
   std::size_t memory_bytes = 0;
   std::optional<double> bake_seconds;
-  std::string bake_note;     ///< where the time of a bake is not known: why
-  Coverage covers, missing;  ///< of the light that the scene has
-  int bounces = 0;           ///< of the indirect light that it is held to; 0: none
+  std::string bake_note;      ///< where the time of a bake is not known: why
+  Coverage covers, missing;   ///< of the light that the scene has
+  int bounces = 0;            ///< of the indirect light that it is held to; 0: none
+  int own_bounces = 0;        ///< of the indirect light that it computes
+  bool direct_alone = false;  ///< computes indirect light, but the reference has none: not measured
   /// The relative error that chance in what it is held to makes by itself; nothing where that is not known.
   std::optional<double> reference_noise;
   Warnings notes;

@@ -27,11 +27,16 @@ int bakedBounces(const Scene& scene) {
   return bounces;
 }
 
-int chooseBounces(const CompareChoice& choice, const Scene& scene, const std::vector<Contender>& contenders) {
+/// As many as the technique that has most of light that is there.
+int chooseBounces(const CompareChoice& choice, const CompareStage& stage,
+                  const std::vector<Contender>& contenders) {
   if (choice.bounces) return *choice.bounces;
-  const int baked = carriesTransfer(scene) ? bakedBounces(scene) : BakeOptions{}.bounces;
+  const int baked = carriesTransfer(stage.scene) ? bakedBounces(stage.scene) : BakeOptions{}.bounces;
+  const Coverage any = lightIn(stage.scene, stage.posed, stage.environment, 1);
   int most = 0;
-  for (const Contender& contender : contenders) most = std::max(most, bouncesOf(contender, baked));
+  for (const Contender& contender : contenders) {
+    if (anyIndirect(both(coverageOf(contender), any))) most = std::max(most, bouncesOf(contender, baked));
+  }
   return most;
 }
 
@@ -50,7 +55,7 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.camera = chooseCamera(stage.posed, choice.view, console);
   leaveOutUnbakeable(contenders, stage.scene, stage.posed, console);
-  stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage.scene, contenders));
+  stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage, contenders));
   stage.glowing = glowingInstances(stage.scene, stage.posed);
   stage.in_scene = lightIn(stage.scene, stage.posed, stage.environment, stage.bounces);
   leaveOutDark(contenders, stage.in_scene, console);

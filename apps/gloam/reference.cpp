@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "compare_plan.h"
 #include "display_choice.h"
 #include "frame_plan.h"
 #include "json.h"
@@ -87,6 +88,10 @@ fs::path checkpointOf(const ReferenceChoice& choice, std::size_t frames) {
   return path += ".checkpoint";
 }
 
+std::string samplesText(int samples) {
+  return samples == 1 ? "1 sample" : fmt::format("{} samples", samples);
+}
+
 ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, Console& console) {
   ReferenceGoal goal;
   goal.noise = choice.noise;
@@ -94,12 +99,25 @@ ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, 
   const int round = choice.view.supersample * choice.view.supersample;
   const int even = std::min((goal.samples + round - 1) / round * round, kLargestSamples / round * round);
   if (even != goal.samples) {
-    console.remark(fmt::format("{} samples instead of {}: each of the {} positions in a pixel gets as many",
-                               even, goal.samples, round));
+    console.remark(fmt::format("{} instead of {}: each of the {} positions in a pixel gets as many",
+                               samplesText(even), goal.samples, round));
   }
   goal.samples = even;
   goal.checkpoint = checkpoint;
   return goal;
+}
+
+/// Light that was asked for by name and is not there is a slip: hours of black would be no answer.
+void requireAskedLight(const ReferenceChoice& choice, const Stage& stage, const PlannedFrame& frame) {
+  if (choice.parts.only.empty()) return;
+  const Coverage there =
+      lightIn(stage.scene, poseMoved(stage.scene, stage.moves, frame.time_s),
+              environmentAt(stage.environment, stage.light, frame.time_s), stage.options.bounces);
+  if (both(there, stage.options.light) != Coverage{}) return;
+  const std::vector<std::string> names = coverageNames(there);
+  throw Error("--only", fmt::format("the scene has no light of {}; it has {}",
+                                    CLI::detail::join(choice.parts.only, ", "),
+                                    names.empty() ? "none at all" : listed(names)));
 }
 
 Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame>& frames, Console& console) {
@@ -124,6 +142,7 @@ Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame
   stage.options.background = choice.display.background;
   stage.options.light = coverageOf(choice.parts);
   stage.options.seed = std::uint64_t(choice.seed);
+  if (frames.size() == 1) requireAskedLight(choice, stage, frames.front());
   return stage;
 }
 
@@ -169,10 +188,10 @@ void printResult(const ReferenceChoice& choice, const Stage& stage, const Total&
                  const std::vector<fs::path>& files, Console& console) {
   if (!console.json) {
     const std::string more = files.size() > 1 ? fmt::format(" to {}", files.back().filename().string()) : "";
-    console.remark(fmt::format("wrote {}{} ({} samples a pixel, noise {}, {:.1f} Mrays/s, {}{})",
-                               files.front().string(), more, total.samples, noiseText(total.noise),
-                               total.raysPerSecond() / 1e6, durationText(total.seconds),
-                               total.resumed ? "; resumed" : ""));
+    console.remark(fmt::format("wrote {}{} ({} a pixel, noise {}, {:.1f} Mrays/s, {}{})",
+                               files.front().string(), more, samplesText(total.samples),
+                               noiseText(total.noise), total.raysPerSecond() / 1e6,
+                               durationText(total.seconds), total.resumed ? "; resumed" : ""));
     return;
   }
   Json outputs = Json::array();
@@ -240,8 +259,8 @@ int runReference(ReferenceChoice choice, Console& console) {
   }
   printResult(choice, stage, total, output->finish(), console);
   if (choice.noise == 0.0f || total.noise <= double(choice.noise)) return kDone;
-  console.remark(fmt::format("noise is still {} after {} samples; {} was asked for", noiseText(total.noise),
-                             total.samples, noiseText(double(choice.noise))));
+  console.remark(fmt::format("noise is still {} after {}; {} was asked for", noiseText(total.noise),
+                             samplesText(total.samples), noiseText(double(choice.noise))));
   return kBoundExceeded;
 }
 

@@ -34,6 +34,12 @@ Image LayeredImage::image(std::string_view layer, const std::vector<std::string>
       std::vector<std::string> names;
       for (const Layer& l : layers)
         for (const std::string& channel : l.channels) names.push_back(fullName(l.name, channel));
+      constexpr std::size_t kMany = 12;  // then layers alone
+      if (names.size() > kMany) {
+        names.clear();
+        for (const Layer& l : layers)
+          names.push_back(l.name.empty() ? fmt::format("{}", fmt::join(l.channels, "")) : l.name);
+      }
       throw Error(place, fmt::format("channel {} is missing; the file has {}", fullName(layer, channels[c]),
                                      oneLine(fmt::format("{}", fmt::join(names, ", ")))));
     }

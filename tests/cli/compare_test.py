@@ -270,7 +270,19 @@ class Lists(CliTest):
             self.assertIn("environment_indirect", technique["leaves_out"])
             self.assertIsNone(technique["indirect"]["rmse"])
         answer = self.succeed("compare", "ds.glb", *view, "--bounces", "0", "--techniques", "proxies", "-o", "none")
-        self.assertIn("proxies: its light has 1 bounce, the reference 0: what is more counts as error", answer.err)
+        self.assertIn("proxies: the reference has no bounces: direct light alone is measured", answer.err)
+        none = json.loads(self.path("none/results.json").read_text(encoding="utf-8"))["techniques"][0]
+        self.assertEqual([none["bounces"], none["own_bounces"]], [0, 1])
+        self.assertEqual([none[name] for name in MEASURES], [none["direct"][name] for name in MEASURES])
+        said = self.succeed_json(*shlex.split(none["command"])[1:])
+        self.assertEqual([none[name] for name in MEASURES], [said[name] for name in MEASURES])
+
+    def test_bounces_of_light_that_is_not_there_are_not_traced(self):
+        self.succeed("bake", BOX, "--bounces", "2", "--directions", "256", "--bounce-directions", "64", "-o", "two.glb")
+        results = json.loads(self.succeed("compare", "two.glb", "--env", "none", "--size", "24x16", "--spp", "1", "--frames", "1", "--json",
+                                          "-o", "out").out)
+        self.assertNotIn("prt", [technique["name"] for technique in results["techniques"]])
+        self.assertEqual(results["bounces"], 1)
 
     def test_what_shines_itself_is_not_measured(self):
         small = ["compare", "builtin:lanterns?detail=0.3", "--size", "48x32", "--spp", "4", "--frames", "1", "--techniques", "irradiance"]
@@ -334,6 +346,7 @@ class Refused(CliTest):
         self.refused("--techniques", "prt:orde=3", says=["prt:orde=3", "orde"])
         self.refused("--techniques", "prt:order=30", says=["prt:order=30", "30"])
         self.refused("--techniques", "prt,irradiance,prt:order=0", says=["prt order=0", "same"])
+        self.refused("--techniques", "prt,irradiance,prt", says="'prt' stands twice")
 
     def test_a_technique_that_cannot_light_this_scene(self):
         self.refuse("compare", "builtin:furnace?detail=0.25", "--env", "none", "--techniques", "irradiance", "-o", "out",
@@ -383,6 +396,8 @@ class References(CliTest):
                               "-o", "out")
         self.assertIn("truth.exr", answer.err)
         self.assertIn("cannot be checked", answer.err)
+        self.assertIn("truth.exr has no channel object.id", answer.err)
+        self.assertIn("truth.exr does not say how noisy it is", answer.err)
 
     def test_of_another_size(self):
         self.reference()
@@ -397,6 +412,20 @@ class References(CliTest):
         values[8 * 2 + 3] = math.inf
         self.reference(R=values)
         self.refused(says=["truth.exr", "channel R", "infinite"])
+
+    def test_with_variances_that_cannot_be(self):
+        for value, says in (math.nan, "not a number"), (-1.0, "below 0"):
+            self.reference(variance_R=value, variance_G=0.1, variance_B=0.1)
+            self.refused(says=["truth.exr", "variance.R", says])
+        for name, value in ("gloam.part_variance", "junk"), ("gloam.variance", "nan"):
+            self.reference(attributes=self.LIGHT | {"gloam.light": "environment_direct local_direct", name: value})
+            self.refused(says=["truth.exr", f"attribute {name}", value])
+
+    def test_without_numbers_of_objects(self):
+        self.reference(object_id=1.0)
+        self.refused(says=["truth.exr", "object.id holds no whole numbers"])
+        self.reference(seen_R=0.0, seen_G=0.0, seen_B=0.0)
+        self.refused(says=["truth.exr", "object.id is missing"])
 
     def test_without_a_layer(self):
         self.reference(without=["direct.R", "direct.G", "direct.B"])

@@ -146,7 +146,9 @@ class Light(CliTest):
         self.assertGreater(self.means("a.exr", "indirect")["G"], 0)
 
     def test_nothing_that_sends_such_light_is_said(self):
-        err = self.succeed("reference", "builtin:furnace?detail=0.25", *SMALL, *SKY, *QUICK, "--only", "lamps", "-o", "a.png").err
+        furnace = "reference", "builtin:furnace?detail=0.25", *SMALL, *SKY, *QUICK
+        self.refuse(*furnace, "--only", "lamps", "-o", "a.png", says=["--only", "no light of lamps", "environment_direct"])
+        err = self.succeed(*furnace, "--indirect", "--bounces", "0", "-o", "a.png").err
         self.assertIn("nothing in the scene sends", err)
 
     def test_projection_of_the_sky(self):

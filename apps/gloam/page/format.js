@@ -7,7 +7,7 @@ function significant(value, digits = 3) {
   const size = Math.abs(value);
   const text = size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1)
     : value.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(size))));
-  return text.replace('-', '−');
+  return text.replaceAll('-', '−');
 }
 const percent = (value, digits = 2) => value === null || !Number.isFinite(value) ? '–' : `${significant(100 * value, digits)}\u00a0%`;
 const bouncesText = (count) => `${count} ${count === 1 ? 'bounce' : 'bounces'}`;

@@ -113,7 +113,7 @@ function details(technique) {
     make('div', {}, make('h3', {}, 'Light and settings'), list([
       ['covers', lightWords(technique.covers)],
       ['leaves out', lightWords(technique.leaves_out) || 'nothing that this scene has'],
-      ['bounces', String(technique.bounces)],
+      ['bounces', technique.own_bounces === technique.bounces ? String(technique.bounces) : `${technique.own_bounces}, held to ${technique.bounces}`],
       ...Object.entries(technique.settings).map(([name, value]) => [name, String(value)]),
       ...(technique.bake_note ? [['bake', technique.bake_note]] : []),
       ...technique.notes.map((note) => ['note', note]),
