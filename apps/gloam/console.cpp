@@ -42,6 +42,7 @@ void Console::remark(const std::string& line) {
     held_.push_back(line);
     return;
   }
+  if (!said_.insert(line).second) return;
   endProgress();
   fmt::print(stderr, "gloam: {}\n", singleLine(line));
 }

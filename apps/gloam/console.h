@@ -7,6 +7,7 @@
 #include <gloam/scene.h>
 
 #include <chrono>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ class Console {
   std::string command;  ///< as it was typed, quoted for a shell
 
   /// One line on standard error that a user may want to know ("no light: sky:mild"). Held back until release(), so that
-  /// bad input is answered by its error alone.
+  /// bad input is answered by its error alone. What was said once is not said again.
   virtual void remark(const std::string& line);
   /// Called when the input has proved good: shows what was held back, and from then on remarks at once.
   void release();
@@ -41,6 +42,7 @@ class Console {
 
   bool bar_shown_ = false, released_ = false;
   std::vector<std::string> held_;
+  std::set<std::string> said_;
   Clock::time_point started_{}, shown_{};
   double first_fraction_ = 0.0, last_fraction_ = 2.0;
 };

@@ -20,12 +20,10 @@ function choice(id, entries, chosen, change) {
   mark(chosen);
 }
 
-/// All pictures: after the last technique that is held to a reference, that reference.
-function inPairs() {
-  const pictures = page.pictures, all = pictures.map((_, i) => i);
-  const last = (reference) => pictures.reduce((found, picture, i) => picture.technique !== null && picture.reference === reference ? i : found, -1);
-  const after = all.map((i) => pictures[i].technique !== null || last(i) < 0 ? i : last(i));
-  return all.sort((a, b) => after[a] - after[b] || a - b);
+/// Where a picture stands in the narrow grid: a reference after the last technique that is held to it.
+function orderInPairs(index) {
+  const last = page.pictures.reduce((found, picture, i) => picture.technique !== null && picture.reference === index ? i : found, -1);
+  return last < 0 ? 2 * index : 2 * last + 1;
 }
 
 function arrange() {
@@ -35,10 +33,11 @@ function arrange() {
   byId('difference-tools').hidden = state.view !== 'difference';
   if (state.view === 'swipe') panes = [new Pane([state.left, state.right])];
   else if (state.view === 'difference') panes = techniques.map((i) => new Pane([i], true));
-  else panes = inPairs().map((i) => new Pane([i]));
+  else panes = page.pictures.map((_, i) => new Pane([i]));
   stage.classList.toggle('single', panes.length === 1);
   stage.classList.toggle('few', panes.length <= 2);
   stage.style.setProperty('--columns', panes.length <= 4 ? Math.max(panes.length, 2) : panes.length <= 6 || width > height ? 3 : 4);
+  for (const pane of panes) pane.figure.style.setProperty('--in-pairs', orderInPairs(pane.shows[0]));
   stage.replaceChildren(...panes.map((pane) => pane.figure));
   limitSingle();
   for (const pane of panes) pane.describe();
