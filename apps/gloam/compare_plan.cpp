@@ -46,15 +46,6 @@ Contender contenderOf(const std::string& text, const TechniqueChoice& common) {
   return contender;
 }
 
-float brightest(const glm::vec3& color) {
-  return std::max({color.r, color.g, color.b});
-}
-
-bool glows(const Scene& scene, int index) {
-  const Mesh& mesh = scene.meshes[std::size_t(index)];
-  return !mesh.indices.empty() && brightest(scene.materials[std::size_t(mesh.material)].emission) > 0.0f;
-}
-
 /// All that moves does so by bones or morph targets, and something does.
 bool deformsAltogether(const Scene& scene, const PosedScene& posed) {
   bool any = false;
@@ -112,25 +103,6 @@ std::vector<Contender> allContenders(const TechniqueChoice& common) {
     contenders.back().named = false;
   }
   return contenders;
-}
-
-Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces) {
-  Coverage light;
-  light.environment_direct = !environment.empty() && environment.intensity > 0.0f;
-  light.local_direct = std::ranges::any_of(
-      posed.lights, [](const PosedLight& lamp) { return brightest(lamp.light.intensity) > 0.0f; });
-  const std::vector<bool> glowing = glowingInstances(scene, posed);
-  light.emitter_direct = std::ranges::find(glowing, true) != glowing.end();
-  light.environment_indirect = light.environment_direct && bounces > 0;
-  light.local_indirect = light.local_direct && bounces > 0;
-  light.emitter_indirect = light.emitter_direct && bounces > 0;
-  return light;
-}
-
-std::vector<bool> glowingInstances(const Scene& scene, const PosedScene& posed) {
-  std::vector<bool> glowing;
-  for (const Instance& instance : posed.instances) glowing.push_back(glows(scene, instance.mesh));
-  return glowing;
 }
 
 std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres) {

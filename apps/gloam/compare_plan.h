@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "console.h"
+#include "scene_light.h"
 #include "technique_choice.h"
 
 namespace gloam::cli {
@@ -31,12 +32,6 @@ struct Contender {
 std::vector<Contender> planContenders(const std::string& list, const TechniqueChoice& common);
 /// Every technique once, none of them named.
 std::vector<Contender> allContenders(const TechniqueChoice& common);
-
-/// The light that a scene has at all. Without bounces nothing is indirect.
-Coverage lightIn(const Scene& scene, const PosedScene& posed, const Environment& environment, int bounces);
-
-/// For each of PosedScene::instances, whether it shines itself.
-std::vector<bool> glowingInstances(const Scene& scene, const PosedScene& posed);
 
 /// Names of things that glow and have no spheres (flat ones): what lives by spheres has nothing of their light.
 std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres);

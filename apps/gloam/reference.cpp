@@ -5,10 +5,10 @@
 #include <fmt/core.h>
 #include <gloam/reference.h>
 #include <gloam/volume.h>
+#include <scene/coverage.h>
 
 #include <cmath>
 
-#include "compare_plan.h"
 #include "display_choice.h"
 #include "frame_plan.h"
 #include "json.h"
@@ -16,6 +16,7 @@
 #include "node_moves.h"
 #include "output.h"
 #include "scene_inputs.h"
+#include "scene_light.h"
 #include "settings_file.h"
 #include "verb.h"
 

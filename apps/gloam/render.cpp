@@ -16,6 +16,7 @@
 #include "node_moves.h"
 #include "output.h"
 #include "scene_inputs.h"
+#include "scene_light.h"
 #include "settings_file.h"
 #include "show.h"
 #include "spheres_overlay.h"
@@ -60,7 +61,13 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.technique = &chooseTechnique(choice.technique, stage.scene);
   stage.options.settings = settingsFor(*stage.technique, choice.technique);
   stage.base = mapLight(chooseBaseEnvironment(stage.scene, choice.light, console));
-  stage.camera = chooseCamera(pose(stage.scene, first_time_s), choice.view, console);
+  const PosedScene posed = pose(stage.scene, first_time_s);
+  stage.camera = chooseCamera(posed, choice.view, console);
+  if (choice.layer.empty()) {
+    Coverage in_scene = lightIn(stage.scene, posed, *stage.base.map, 1);
+    in_scene.environment_direct |= !choice.light.lights.empty();
+    remarkDark(*stage.technique, stage.options.settings, in_scene, console);
+  }
   if (choice.motion.animate && stage.scene.animations.empty() && !choice.light.lights.moves()) {
     console.remark("--animate: the scene holds no animation");
   }

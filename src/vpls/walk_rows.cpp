@@ -38,28 +38,11 @@ glm::vec2 pointOf(std::uint32_t index, std::uint32_t pair) {
   return sampling::sobol2(index, 0x9e3779b9u * (pair + 1u));
 }
 
-/// How many paths of a set reach each bounce: halves, `rows` of all together.
-std::vector<int> pathCounts(int rows, int bounces) {
-  bounces = std::min({bounces, rows, kMostBounces});
+/// How many paths of a set reach each bounce: half as many go on each time, so that light of one bounce is as good with further ones.
+std::vector<int> pathCounts(int first, int bounces) {
   std::vector<int> counts;
-  if (bounces <= 0) return counts;
-  int first = rows;
-  const auto sumOf = [&](int paths) {
-    int sum = 0;
-    double left = paths;
-    for (int b = 0; b < bounces; ++b, left *= double(kGoOn)) sum += std::max(1, int(std::ceil(left)));
-    return sum;
-  };
-  int low = 1;  // the most that fit
-  while (low < first) {
-    const int middle = (low + first + 1) / 2;
-    if (sumOf(middle) <= rows)
-      low = middle;
-    else
-      first = middle - 1;
-  }
-  double left = low;
-  for (int b = 0; b < bounces; ++b, left *= double(kGoOn))
+  double left = first;
+  for (int b = 0; first > 0 && b < std::min(bounces, kMostBounces); ++b, left *= double(kGoOn))
     counts.push_back(std::max(1, int(std::ceil(left))));
   return counts;
 }
@@ -182,6 +165,8 @@ struct RowMaker {
       const float offset = 4.0f * lights.world.tracer().surfaceOffset(hit);
       area += spread * hit.distance * hit.distance;
       area /= std::max(-glm::dot(normal, ray.direction), kLeastCosine);
+      // Paths that set out from all over a room come down evenly: what the two tell of that is to be counted once.
+      if (b > 0) area *= 0.5f;
       WalkVpl& row = rows_of_bounce[i];
       row.end = {position, visibility::kSightSurface, normal, offset};
       row.light = flux / kPi;
@@ -217,8 +202,9 @@ WalkPlan planWalks(const WalkOptions& options, std::size_t lamps, int candidates
     if (count < 0 || count > kMostRows)
       throw Error("virtual lights", fmt::format("{} rows or bounces; expected 0 to {}", count, kMostRows));
   }
+  const std::int64_t further = options.bounces > 1 ? options.indirect + kMostBounces : 0;  // at most
   const std::int64_t each =
-      std::int64_t(options.direct) + std::int64_t(options.indirect) * candidates + options.most_lamps;
+      std::int64_t(options.direct) + (options.indirect + further) * candidates + options.most_lamps;
   if (each * options.sets > kMostRows)
     throw Error("virtual lights", fmt::format("{} sets of {} rows; expected at most {} rows in all",
                                               options.sets, each, kMostRows));

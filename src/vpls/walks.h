@@ -15,7 +15,7 @@ struct WalkOptions {
   int sets = 16;  ///< n * m
   int direct =
       16;  ///< rows a set for surfaces that glow and the environment, of both together; lamps come on top
-  int indirect = 32;  ///< rows a set for lit surfaces, of all bounces together
+  int indirect = 32;  ///< rows a set for surfaces that sources light; each further bounce has half as many as the one before
   int bounces = 1;    ///< surfaces that light meets before it reaches the receiver; 0: direct light alone
   /// Rows a set for punctual lamps themselves: all of them where there are no more, else a choice by power. They light surfaces
   /// either way.

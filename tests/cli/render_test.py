@@ -14,6 +14,13 @@ LIGHT = ["--env", "sky:uniform"]
 
 
 class Pictures(CliTest):
+    def test_a_picture_without_light_is_said(self):
+        dark = self.succeed("render", "builtin:furnace?detail=0.25", "--env", "none", "--size", "8x8", "-o", "a.png").err
+        self.assertIn("nothing in the scene sends light", dark)
+        glow = self.succeed("render", "builtin:bumps?detail=0.25", "--env", "none", "--size", "8x8", "--technique", "irradiance", "-o", "a.png").err
+        self.assertIn("irradiance has no light here: it covers environment_direct, local_direct, the scene has emitter_direct", glow)
+        self.assertNotIn("light here", self.succeed("render", "builtin:cornell?detail=0.25", "--env", "none", "--size", "8x8", "-o", "a.png").err)
+
     def test_png_of_the_right_size_that_is_not_black(self):
         result = self.succeed_json("render", BOX, *SMALL, "-o", "a.png")
         self.assertEqual((result["size"], result["outputs"]), ("48x32", ["a.png"]))

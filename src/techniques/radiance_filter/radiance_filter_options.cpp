@@ -29,7 +29,8 @@ const std::vector<Option>& options() {
        .default_value = 32,
        .minimum = 0,
        .maximum = 4096,
-       .help = "virtual lights a set on lit surfaces, of all bounces together"},
+       .help = "virtual lights a set on surfaces that sources light; each further bounce has half as many on "
+               "top"},
       {.name = "candidates",
        .default_value = 1,
        .minimum = 1,
