@@ -68,6 +68,7 @@ const VolumeBuffers& Prt::volumesFor(const frame::FrameInputs& inputs, int order
 const GlossyBuffers& Prt::glossyFor(const frame::FrameInputs& inputs, const GlossyOptions& options) {
   const std::uint64_t revision = inputs.scene.layoutRevision();
   if (glossy_ && glossy_revision_ == revision && glossy_->options() == options) return *glossy_;
+  gloss_fields_ = {};
   glossy_.reset();
   glossy_.emplace(device_, inputs.scene, options);
   glossy_revision_ = revision;
@@ -82,6 +83,7 @@ void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
   const GlossyBuffers& glossy = glossyFor(inputs, {.order = settings.integer("order"),
                                                    .cheap = choice == "cheap" && !local,
                                                    .half_float = settings.flag("half_float"),
+                                                   .on_host = onHost(device_, settings),
                                                    .chunk_bytes = chunk_bytes_});
   if (glossy.empty()) return;
   const sh::ShRgb light =
@@ -104,7 +106,7 @@ void Prt::addGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
     if (choice == "cheap")
       inputs.warnings.push_back("prt.glossy cheap: under local light it is drawn by matrices");
   }
-  lighting.gloss = recordGloss(graph, inputs, glossy, light, damped, settings.flag("indirect"),
+  lighting.gloss = recordGloss(graph, inputs, glossy, light, damped, settings.flag("indirect"), gloss_fields_,
                                local ? &of_probes : nullptr);
   lighting.has_environment_gloss = true;
 }

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "techniques/prt/prt_glossy_transfer.h"
+#include "techniques/prt/prt_glossy.h"
 #include "techniques/prt/prt_local.h"
 #include "techniques/prt/prt_neighbourhood.h"
 #include "techniques/prt/prt_transfer.h"
@@ -43,6 +43,7 @@ class Prt : public Technique {
   std::uint64_t layout_revision_ = 0;
   std::optional<GlossyBuffers> glossy_;
   std::uint64_t glossy_revision_ = 0;
+  GlossFields gloss_fields_;  // of glossy_
   std::optional<LocalLight> local_;
   std::uint64_t local_revision_ = 0;
   frame::ProbeTables probe_tables_;

@@ -9,25 +9,21 @@
 #include <algorithm>
 
 #include "shaders/prt_shaders.h"
+#include "techniques/prt/prt_relight_kernel.h"
 
 namespace gloam::prt {
 
-std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
-                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
-                                      bool indirect, const LocalGloss* local) {
-  // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
-  std::vector<glm::vec3> light_rows;
-  float greatest = 0.0f;
-  for (const glm::vec3& c : light.coefficients())  // what probes will see is not known here
-    greatest = std::max({greatest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
-  if (local) greatest = 1.0f;
-  sh::ShRgb exposed = light;
-  if (greatest > 0.0f) exposed *= glm::vec3(1.0f / greatest);
-  light_rows = glossy.lightRows(exposed, inputs.scene);
+namespace {
 
-  const gpu::BufferRef lights = graph.upload("prt.gloss_lights", light_rows);
-  const auto fields = graph.create(
-      "prt.gloss_fields", gpu::BufferDesc{.bytes = glossy.outputVertices() * glossy.fieldWords() * 4});
+std::size_t fieldBytes(const GlossyBuffers& glossy) {
+  return glossy.outputVertices() * glossy.fieldWords() * 4;
+}
+
+gpu::BufferRef fieldsOnDevice(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                              const GlossyBuffers& glossy, const std::vector<glm::vec3>& rows_of_light,
+                              const LocalGloss* local) {
+  const gpu::BufferRef lights = graph.upload("prt.gloss_lights", rows_of_light);
+  const auto fields = graph.create("prt.gloss_fields", gpu::BufferDesc{.bytes = fieldBytes(glossy)});
   const gpu::Limits& limits = graph.device().limits();
   for (const TransferChunk& chunk : glossy.chunks()) {
     const std::uint32_t columns = std::min(chunk.block_count, limits.max_group_count[0]);
@@ -60,7 +56,56 @@ std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::Frame
     }
     pass.dispatch(columns, rows);
   }
+  return fields;
+}
 
+/// The light's rows tell all that the field depends on.
+gpu::BufferRef fieldsOnHost(gpu::FrameGraph& graph, const GlossyBuffers& glossy, std::vector<glm::vec3> light,
+                            GlossFields& kept) {
+  if (!kept.buffer)
+    kept.buffer = gpu::Buffer(graph.device(), "prt.gloss_fields",
+                              gpu::BufferDesc{.bytes = fieldBytes(glossy), .host_visible = true});
+  const gpu::BufferRef fields = graph.import("prt.gloss_fields", kept.buffer);
+  if (kept.light == light) return fields;
+  auto& pass = graph.host("prt.gloss_vertices");
+  pass.write(fields);
+  pass.run([&glossy, &kept, light = std::move(light), fields](gpu::HostAccess& access) {
+    const auto words = [](const gpu::Buffer& buffer) {
+      return reinterpret_cast<const std::uint32_t*>(buffer.mapped());
+    };
+    for (const TransferChunk& chunk : glossy.chunks())
+      relightGloss(
+          {.direct = words(chunk.direct),
+           .indirect = glossy.hasIndirect() ? words(chunk.indirect) : nullptr,
+           .blocks = {reinterpret_cast<const VertexBlock*>(chunk.blocks.mapped()), chunk.block_count},
+           .light_order = glossy.lightOrder(),
+           .field_order = glossy.fieldOrder(),
+           .cheap = glossy.options().cheap,
+           .half_float = glossy.options().half_float},
+          light, access.map<std::uint32_t>(fields).data());
+    kept.light = light;
+  });
+  return fields;
+}
+
+}  // namespace
+
+std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
+                                      const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
+                                      bool indirect, GlossFields& kept, const LocalGloss* local) {
+  // Radiance is kept in halves: at an exposure that brings the light's greatest coefficient to 1.
+  std::vector<glm::vec3> light_rows;
+  float greatest = 0.0f;
+  for (const glm::vec3& c : light.coefficients())  // what probes will see is not known here
+    greatest = std::max({greatest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+  if (local) greatest = 1.0f;
+  sh::ShRgb exposed = light;
+  if (greatest > 0.0f) exposed *= glm::vec3(1.0f / greatest);
+  light_rows = glossy.lightRows(exposed, inputs.scene);
+
+  const gpu::BufferRef fields = glossy.options().on_host && !local
+                                    ? fieldsOnHost(graph, glossy, std::move(light_rows), kept)
+                                    : fieldsOnDevice(graph, inputs, glossy, light_rows, local);
   const gpu::ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                             .width = inputs.gbuffer.width,
                             .height = inputs.gbuffer.height};

@@ -16,10 +16,16 @@ struct LocalGloss {
   int points = 0, order = 0;  ///< an object; bands of `lights`, no fewer than `glossy` takes
 };
 
-/// Adds "prt.gloss_vertices", once a chunk, and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be
+/// Radiance at vertices as the host left it, kept while light and objects stand. It belongs to one GlossyBuffers.
+struct GlossFields {
+  gpu::Buffer buffer;
+  std::vector<glm::vec3> light;  ///< GlossyBuffers::lightRows() that it is of
+};
+
+/// Adds "prt.gloss_vertices", once a chunk (where the host multiplies: once, and not while `kept` holds), and "prt.gloss_pixels". `light` is the world's, with as many bands as are to be
 /// used; `damped`: where ringing makes a lobe negative, a blunter one is mixed in. With `local` the pass is "prt.local_gloss". The images hold what the unit-integral lobe of each pixel gathers: k_s is not applied.
 std::vector<frame::Gloss> recordGloss(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                       const GlossyBuffers& glossy, const sh::ShRgb& light, bool damped,
-                                      bool indirect, const LocalGloss* local = nullptr);
+                                      bool indirect, GlossFields& kept, const LocalGloss* local = nullptr);
 
 }  // namespace gloam::prt

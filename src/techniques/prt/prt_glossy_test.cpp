@@ -140,6 +140,55 @@ TEST(PrtGlossy, CheapOptionsHalvesAndChunksShowTheSame) {
   EXPECT_EQ(whole.indirect, cut.indirect);
 }
 
+// Matrices that are nothing in particular: what they make of light is the same by the host and by the device.
+TEST(PrtGlossy, HostAndDeviceAgree) {
+  for (const auto& [light_order, exponent] : {std::pair(3, 0.0f), {5, 0.0f}, {5, 4.0f}}) {
+    Scene scene = metalScene(6.0f);
+    addTransfer(scene, light_order, 5, true, exponent);
+    auto uneven = std::make_shared<Transfer>(*scene.meshes[0].transfer);
+    for (std::vector<float>* values : {&uneven->glossy.visibility, &uneven->glossy.indirect})
+      for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] += 0.05f * float(std::sin(double(i)));
+    scene.meshes[0].transfer = uneven;
+    for (const Values& more : {Values{}, {{"half_float", "on"}}, {{"glossy", "cheap"}}}) {
+      Settings host = settings(more), device = host;
+      host.set("relight", "host");
+      device.set("relight", "device");
+      const Picture a = draw(scene, host), b = draw(scene, device);
+      for (std::size_t i = 0; i < a.direct.size(); ++i) {
+        ASSERT_NEAR(a.direct[i], b.direct[i], 2e-3f * (1.0f + b.direct[i]));
+        ASSERT_NEAR(a.indirect[i], b.indirect[i], 2e-3f * (1.0f + b.indirect[i]));
+      }
+    }
+  }
+}
+
+// What the host keeps from frame to frame is of this light on these objects.
+TEST(PrtGlossy, WhatIsKeptFollowsObjects) {
+  Scene scene = metalScene(6.0f);
+  addTransfer(scene, 5, 5);
+  const PosedScene as_it_was = pose(scene, 0.0f);
+  PosedScene turned = as_it_was;
+  turned.instances[0].world_from_object = glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0, 1, 0));
+  const Settings values = settings({{"relight", "host"}});
+  frame::TestFrame frame(scene);
+  Prt technique(gpu::testDevice());
+  const auto drawn = [&](Prt& by, const PosedScene& posed) {
+    return frame
+        .draw(posed, as_it_was.cameras.at(0), {.width = kSize, .height = kSize},
+              [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                return by.record(graph, inputs, values);
+              })
+        .direct.image()
+        .downloadFloats();
+  };
+  const std::vector<float> first = drawn(technique, as_it_was);
+  EXPECT_EQ(drawn(technique, as_it_was), first);
+  const std::vector<float> after = drawn(technique, turned);
+  Prt fresh(gpu::testDevice());
+  EXPECT_EQ(after, drawn(fresh, turned));
+  EXPECT_NE(after, first);
+}
+
 TEST(PrtGlossy, DirectAndIndirectStayApart) {
   Scene scene = metalScene(6.0f);
   for (const char* half : {"off", "on"}) {

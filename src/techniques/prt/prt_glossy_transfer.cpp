@@ -117,7 +117,7 @@ void GlossyBuffers::fillChunks(gpu::Device& device, const frame::GpuScene& scene
   const std::size_t direct = std::size_t(options_.cheap ? shape_.rows() : shape_.size());
   const std::size_t indirect = std::size_t(shape_.rows()) * evenColumns(shape_) * 3;
   Packer packer(device, "prt.glossy", wordCount(direct, half), has_indirect_ ? wordCount(indirect, half) : 0,
-                options_.chunk_bytes);
+                options_.chunk_bytes, options_.on_host);
   for (std::size_t n = 0; n < lit_.size(); ++n) {
     const std::uint32_t mesh_index = scene.instances()[lit_[n]].mesh;
     const frame::GpuMesh& mesh = scene.meshes()[mesh_index];

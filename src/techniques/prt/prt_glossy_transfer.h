@@ -14,6 +14,7 @@ struct GlossyOptions {
   int order = 0;       ///< bands of light and radiance to keep; 0: as many as are baked
   bool cheap = false;  ///< V alone, to the bands of the radiance, instead of the matrix
   bool half_float = false;
+  bool on_host = false;         ///< the host multiplies: buffers are mapped
   std::size_t chunk_bytes = 0;  ///< largest buffer of transfer; 0: what the device takes
   bool operator==(const GlossyOptions&) const = default;
 };

@@ -1,8 +1,8 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Twins of prt_vertices, prt_neighbourhood_points and prt_neighbourhood_turn (.comp.glsl) for devices that are the host: a software driver loads lane by lane, the host's vector
-// units read transfer as fast as memory gives it.
+// Twins of prt_vertices, prt_gloss_vertices, prt_neighbourhood_points and prt_neighbourhood_turn (.comp.glsl) for devices that are the
+// host: a software driver loads lane by lane, the host's vector units read transfer as fast as memory gives it.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,19 @@ struct ChunkInMemory {
 /// `first_peak` of them on, where `in_parts`, the sharpest peaks that the others lack. What is not finite stays so.
 void relight(const ChunkInMemory& chunk, std::span<const glm::vec3> lights, std::uint32_t first_peak,
              bool in_parts, std::span<VertexLight> vertex_light);
+
+/// Glossy transfer as GlossyBuffers stores it, in memory.
+struct GlossInMemory {
+  const std::uint32_t* direct = nullptr;
+  const std::uint32_t* indirect = nullptr;  ///< null: none
+  std::span<const VertexBlock> blocks;
+  int light_order = 5, field_order = 5;
+  bool cheap = false, half_float = false;
+};
+
+/// The radiance at the chunk's vertices as halves, on all cores: fieldOrder^2 rows of 3 words (2 where there is no indirect), all rows of
+/// a vertex side by side. `lights`: GlossyBuffers::lightRows().
+void relightGloss(const GlossInMemory& chunk, std::span<const glm::vec3> lights, std::uint32_t* fields);
 
 /// Rows of a neighbourhood's matrices as NeighbourhoodBuffers stores them, in memory.
 struct GridInMemory {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -177,6 +178,92 @@ TEST(PrtRelight, GridsAreThePlainSumOnEveryInstructionSet) {
                 << a << " " << b << " point " << p << " row " << i;
           }
         }
+    }
+  });
+}
+
+/// A number of [number][vertex], as floats or halves in pairs.
+float numberOf(const std::vector<std::uint32_t>& words, std::size_t words_of_vertex, bool half,
+               std::size_t block, std::size_t vertex, std::size_t number) {
+  const std::size_t word = half ? number / 2 : number;
+  const std::uint32_t bits = words[(block * words_of_vertex + word) * kBlockVertices + vertex];
+  return half ? gpu::floatFromHalf(std::uint16_t(bits >> (number % 2 * 16))) : std::bit_cast<float>(bits);
+}
+
+// Matrices from fewer bands and as many, of GS alone and with GI, V alone, with lobes that are baked in and not.
+TEST(PrtRelight, GlossIsThePlainSumOnEveryInstructionSet) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+  const auto wordsOf = [&](std::size_t blocks, std::size_t numbers, bool half) {
+    std::vector<std::uint32_t> words(blocks * kBlockVertices * wordCount(numbers, half));
+    for (std::uint32_t& word : words)
+      word = half ? gpu::halfFromFloat(value(random)) | std::uint32_t(gpu::halfFromFloat(value(random))) << 16
+                  : std::bit_cast<std::uint32_t>(value(random));
+    return words;
+  };
+  onEveryTarget([&](const char* target) {
+    SCOPED_TRACE(target);
+    for (const auto& [a, b, has_indirect, cheap, half] :
+         {std::tuple(5, 5, true, false, false), std::tuple(3, 5, true, false, true),
+          std::tuple(4, 4, false, false, true), std::tuple(3, 4, false, true, false),
+          std::tuple(5, 5, true, true, true), std::tuple(6, 6, true, false, false)}) {
+      const std::size_t columns = std::size_t(a * a), rows = std::size_t(b * b),
+                        triangle = columns * (columns + 1) / 2;
+      const std::size_t kept = cheap ? rows : triangle + (rows - columns) * columns,
+                        pairs = (columns + 1) / 2;
+      const std::size_t per_light = columns + rows + (cheap ? rows * rows : 0), words = has_indirect ? 3 : 2;
+      std::vector<VertexBlock> blocks = {
+          {0, 0, 2, 32}, {1, std::uint32_t(per_light), 34, 9}, {0, std::uint32_t(per_light), 43, 1}};
+      std::vector<glm::vec3> lights(2 * per_light);
+      for (glm::vec3& light : lights) light = {value(random), value(random), value(random)};
+      const auto direct = wordsOf(2, kept, half), indirect = wordsOf(2, rows * pairs * 6, half);
+      std::vector<std::uint32_t> fields(46 * rows * words, 0xffffffffu);
+      relightGloss({.direct = direct.data(),
+                    .indirect = has_indirect ? indirect.data() : nullptr,
+                    .blocks = blocks,
+                    .light_order = a,
+                    .field_order = b,
+                    .cheap = cheap,
+                    .half_float = half},
+                   lights, fields.data());
+      const auto got = [&](std::size_t v, std::size_t i, std::size_t h) {
+        return gpu::floatFromHalf(std::uint16_t(fields[(v * rows + i) * words + h / 2] >> (h % 2 * 16)));
+      };
+      for (const VertexBlock& block : blocks) {
+        const glm::vec3* light = &lights[block.light];
+        for (std::size_t v = 0; v < block.count; ++v)
+          for (std::size_t i = 0; i < rows; ++i) {
+            glm::dvec3 first(0.0), further(0.0);
+            const auto of = [&](std::size_t n) {
+              return double(numberOf(direct, wordCount(kept, half), half, block.transfer, v, n));
+            };
+            for (std::size_t j = 0; cheap && j < rows; ++j)
+              first += of(j) * glm::dvec3(light[columns + (1 + i) * rows + j]);
+            for (std::size_t j = 0; !cheap && j < columns; ++j) {
+              const std::size_t place = i >= columns
+                                            ? triangle + (i - columns) * columns + j
+                                            : std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j);
+              first += of(place) * glm::dvec3(light[j]);
+            }
+            for (std::size_t j = 0; has_indirect && j < columns; ++j)
+              for (int c = 0; c < 3; ++c)
+                further[c] += double(numberOf(indirect, wordCount(rows * pairs * 6, half), half,
+                                              block.transfer, v, 3 * (2 * i * pairs + j) + std::size_t(c))) *
+                              double(light[j][c]);
+            first *= double(light[columns + i].x);
+            for (int c = 0; c < 3; ++c) {
+              ASSERT_NEAR(got(block.output_ + v, i, std::size_t(c)), first[c],
+                          1e-3 * std::abs(first[c]) + 1e-4)
+                  << a << b << i;
+              if (has_indirect)
+                ASSERT_NEAR(got(block.output_ + v, i, std::size_t(3 + c)), further[c],
+                            1e-3 * std::abs(further[c]) + 1e-4)
+                    << a << b << i;
+            }
+          }
+      }
+      for (const std::size_t untouched : {std::size_t(0), std::size_t(44)})
+        EXPECT_EQ(fields[untouched * rows * words], 0xffffffffu);
     }
   });
 }
