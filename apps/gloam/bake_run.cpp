@@ -93,10 +93,17 @@ BakeOptions drawingBake(const Scene& scene, float time_s, int bounces) {
   return options;
 }
 
+bool bakesApart(const TechniqueInfo& technique, const Settings& settings) {
+  const Coverage covers = coverageWith(technique, settings);
+  return technique.needs_bake && (covers.local_indirect || covers.emitter_indirect);
+}
+
 Scene bakeForDrawing(const Scene& scene, const std::string& place, float time_s, bool use_cache,
-                     Console& console) {
+                     Console& console, bool apart) {
   BakeTime unused;
-  return bakeForDrawing(scene, place, drawingBake(scene, time_s), use_cache, console, &unused);
+  BakeOptions options = drawingBake(scene, time_s);
+  options.apart = apart;
+  return bakeForDrawing(scene, place, options, use_cache, console, &unused);
 }
 
 Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions options, bool use_cache,
@@ -117,7 +124,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
     options.checkpoint = *folder / (key + ".checkpoint");
   }
   console.remark(fmt::format("{} is not baked; baking it first: {}", place, estimateText(estimate)));
-  remarkMotion(scene, console);
+  if (!options.apart) remarkMotion(scene, console);
   console.release();
   BakeReport report;
   VolumeReport clouds;

@@ -18,12 +18,13 @@ BenchStage prepareBench(const BenchChoice& choice, Console& console) {
   BenchStage stage{.renderer = Renderer(choice.device)};
   stage.scene = loadSceneToDraw(choice.scene, console);
   stage.environment = chooseEnvironment(stage.scene, choice.light, console);
+  stage.options.settings = settingsFor(info, choice.technique);
   if (info.needs_bake && !carriesTransfer(stage.scene)) {
-    stage.scene = bakeForDrawing(stage.scene, choice.scene.name, choice.view.time_s, true, console);
+    stage.scene = bakeForDrawing(stage.scene, choice.scene.name, choice.view.time_s, true, console,
+                                 bakesApart(info, stage.options.settings));
   }
   stage.renderer.setScene(stage.scene);
   stage.renderer.setEnvironment(stage.environment);
-  stage.options.settings = settingsFor(info, choice.technique);
   if (info.needs_spheres) {
     stage.spheres = spheresForDrawing(stage.scene, choice.scene.name, true, console,
                                       stage.options.settings.integer("spheres"));

@@ -70,8 +70,9 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
         result.notes.push_back(fmt::format("light of '{}' is missing: it has no spheres", name));
     }
     if (contender.technique->needs_bake) {
-      result.bake_seconds = work.stage.bake_seconds;
-      result.bake_note = work.stage.bake_note;
+      const CompareStage::Bake* bake = work.stage.bakeFor(contender);
+      if (bake) result.bake_seconds = bake->time.seconds;
+      result.bake_note = bake ? bake->time.note : "the file was baked beforehand";
     } else if (contender.technique->needs_spheres) {
       result.bake_seconds = work.sphere_times[i].seconds;
       result.bake_note = work.sphere_times[i].note;

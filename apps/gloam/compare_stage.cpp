@@ -67,16 +67,25 @@ void bakeCompareStage(CompareStage& stage, const CompareChoice& choice,
                       const std::vector<Contender>& contenders, Console& console) {
   if (!anyNeedsBake(contenders)) return;
   if (carriesTransfer(stage.scene)) {
-    stage.bake_note = "the file was baked beforehand";
     stage.baked_bounces = bakedBounces(stage.scene);
     return;
   }
   stage.baked_bounces = std::min(stage.bounces, 64);
-  const BakeOptions options = drawingBake(stage.scene, choice.view.time_s, stage.baked_bounces);
-  BakeTime time;
-  stage.baked = bakeForDrawing(stage.scene, choice.scene.name, options, choice.use_cache, console, &time);
-  stage.bake_seconds = time.seconds;
-  stage.bake_note = time.note;
+  BakeOptions options = drawingBake(stage.scene, choice.view.time_s, stage.baked_bounces);
+  for (const Contender& contender : contenders) {
+    if (!contender.technique->needs_bake || stage.bakeFor(contender) != nullptr) continue;
+    options.apart = bakesApart(*contender.technique, contender.settings);
+    CompareStage::Bake& bake = (options.apart ? stage.baked_apart : stage.baked).emplace();
+    bake.scene =
+        bakeForDrawing(stage.scene, choice.scene.name, options, choice.use_cache, console, &bake.time);
+  }
+}
+
+const CompareStage::Bake* CompareStage::bakeFor(const Contender& contender) const {
+  if (!contender.technique->needs_bake) return nullptr;
+  const std::optional<Bake>& bake =
+      bakesApart(*contender.technique, contender.settings) ? baked_apart : baked;
+  return bake ? &*bake : nullptr;
 }
 
 Drawn drawContender(const CompareStage& stage, const CompareChoice& choice, const Contender& contender,

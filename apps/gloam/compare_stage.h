@@ -14,10 +14,12 @@
 namespace gloam::cli {
 
 struct CompareStage {
-  Scene scene;                 ///< as it was read: the reference is traced from it
-  std::optional<Scene> baked;  ///< where a contender needs a bake that `scene` does not carry
-  std::optional<double> bake_seconds;
-  std::string bake_note;
+  Scene scene;  ///< as it was read: the reference is traced from it
+  struct Bake {
+    Scene scene;
+    BakeTime time;
+  };
+  std::optional<Bake> baked, baked_apart;  ///< where a contender needs a bake that `scene` does not carry
   Environment environment;
   PosedScene posed;
   PosedCamera camera;
@@ -25,8 +27,11 @@ struct CompareStage {
   int baked_bounces = 0;
   std::vector<bool> glowing;  ///< of posed.instances
   Coverage in_scene;          ///< the light that there is, at so many bounces
+  /// Null where there is none.
+  const Bake* bakeFor(const Contender& contender) const;
   const Scene& sceneFor(const Contender& contender) const {
-    return contender.technique->needs_bake && baked ? *baked : scene;
+    const Bake* bake = bakeFor(contender);
+    return bake ? bake->scene : scene;
   }
 };
 

@@ -77,7 +77,8 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
     }
   }
   if (stage.technique->needs_bake && !carriesTransfer(stage.scene)) {
-    stage.scene = bakeForDrawing(stage.scene, choice.scene.name, first_time_s, choice.use_cache, console);
+    stage.scene = bakeForDrawing(stage.scene, choice.scene.name, first_time_s, choice.use_cache, console,
+                                 bakesApart(*stage.technique, stage.options.settings));
     stage.moves = movesIn(stage.scene, choice.moves);  // copies that became nodes count, too
   }
   stage.options.width = choice.view.size.x;

@@ -141,6 +141,12 @@ void addViewOptions(CLI::App& app, ViewChoice& choice) {
   app.add_option_function<std::string>("--fov", setFov, "vertical field of view")
       ->type_name("DEGREES")
       ->group("View");
+  const auto setOrtho = [&choice](const std::string& text) {
+    choice.ortho_m = float(parseNumber("--ortho", text, {1e-6, 1e9}));
+  };
+  app.add_option_function<std::string>("--ortho", setOrtho, "orthographic, so many metres high")
+      ->type_name("METRES")
+      ->group("View");
   addNumber(app, "--time", choice.time_s, {0.0, 1e6}, "SECONDS", "instant of the animation")
       ->default_str("0")
       ->group("View");
@@ -230,6 +236,11 @@ PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Cons
   } else {
     camera = framingCamera(posed, choice.aspect());
     console.remark("no camera in the scene: one that shows all of it (--eye, --target and --fov choose)");
+  }
+  if (choice.fov_deg && choice.ortho_m) throw Error("--fov", "and --ortho exclude each other");
+  if (choice.ortho_m) {
+    camera.camera.perspective = false;
+    camera.camera.half_height = 0.5f * *choice.ortho_m;
   }
   if (choice.fov_deg) {
     if (!camera.camera.perspective) throw Error("--fov", "the camera is orthographic");

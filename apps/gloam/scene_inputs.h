@@ -38,6 +38,7 @@ struct ViewChoice {
   std::string camera;  ///< name or index; empty: the first
   std::optional<glm::vec3> eye, target;
   std::optional<float> fov_deg;  ///< vertical
+  std::optional<float> ortho_m;  ///< height of an orthographic camera's picture
   float aspect() const { return float(size.x) / float(size.y); }
 };
 void addViewOptions(CLI::App& app, ViewChoice& choice);

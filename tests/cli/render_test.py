@@ -14,6 +14,13 @@ LIGHT = ["--env", "sky:uniform"]
 
 
 class Pictures(CliTest):
+    def test_what_is_baked_for_local_light_is_baked_apart(self):
+        small = "render", "builtin:lanterns?detail=0.1", "--technique", "prt", "--size", "16x12", "-o", "a.png"
+        self.assertIn("their transfer holds for the instant", self.succeed(*small).err)
+        answer = self.succeed(*small, "--prt.local_light", "all")
+        self.assertIn("baking it first", answer.err)
+        self.assertNotIn("baked as one object", answer.err)
+
     def test_a_picture_without_light_is_said(self):
         dark = self.succeed("render", "builtin:furnace?detail=0.25", "--env", "none", "--size", "8x8", "-o", "a.png").err
         self.assertIn("nothing in the scene sends light", dark)
