@@ -15,7 +15,7 @@ LIGHT = ["--env", "sky:uniform"]
 
 class Pictures(CliTest):
     def test_what_is_baked_for_local_light_is_baked_apart(self):
-        small = "render", "builtin:lanterns?detail=0.1", "--technique", "prt", "--size", "16x12", "-o", "a.png"
+        small = "render", "builtin:lanterns?detail=0.25", "--technique", "prt", "--size", "16x12", "-o", "a.png"
         self.assertIn("their transfer holds for the instant", self.succeed(*small).err)
         answer = self.succeed(*small, "--prt.local_light", "all")
         self.assertIn("baking it first", answer.err)
