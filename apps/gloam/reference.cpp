@@ -118,7 +118,7 @@ void requireAskedLight(const ReferenceChoice& choice, const Stage& stage, const 
   const std::vector<std::string> names = coverageNames(there);
   throw Error("--only", fmt::format("the scene has no light of {}; it has {}",
                                     CLI::detail::join(choice.parts.only, ", "),
-                                    names.empty() ? "none at all" : listed(names)));
+                                    names.empty() ? "none at all" : CLI::detail::join(names, ", ")));
 }
 
 Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame>& frames, Console& console) {

@@ -183,7 +183,10 @@ Scene readVolumeScene(const std::string& name, const Progress& progress) {
   if (vdb && !volume.density.empty()) most = std::max(1e-30f, *std::ranges::max_element(volume.density));
   for (float& d : volume.density) d *= density / most;
   checkVolume(volume, values.path());
-  return volumeScene(volume.name, std::move(volume), 0.25f * longest, 0.05f);
+  const bool empty = std::ranges::all_of(volume.density, [](float d) { return d == 0.0f; });
+  Scene scene = volumeScene(volume.name, std::move(volume), 0.25f * longest, 0.05f);
+  if (empty) scene.warnings.emplace_back("every voxel's density is 0: nothing of the volume will be seen");
+  return scene;
 }
 
 }  // namespace gloam

@@ -177,6 +177,7 @@ TEST(VolumeFile, RawGridsOfEveryTypeAreRead) {
       EXPECT_NEAR(volume.density[i], 2.0f * float(values[i]) / full, 1e-5f);
     EXPECT_EQ(pose(scene, 0.0f).cameras.size(), 1u);
     EXPECT_FALSE(scene.meshes.empty());
+    EXPECT_TRUE(scene.warnings.empty());
   };
   std::vector<std::uint8_t> bytes(12);
   std::vector<std::uint16_t> shorts(12);
@@ -186,6 +187,10 @@ TEST(VolumeFile, RawGridsOfEveryTypeAreRead) {
   expectRead(bytes, "u8", 255.0f);
   expectRead(shorts, "u16", 65535.0f);
   expectRead(floats, "f32", 1.0f);
+  std::ofstream(path, std::ios::binary) << std::string(12, '\0');
+  const Scene nothing = loadScene(path.string() + "?size=2x2x3&type=u8");
+  ASSERT_EQ(nothing.warnings.size(), 1u);
+  EXPECT_NE(nothing.warnings[0].find("density is 0"), std::string::npos);
   fs::remove(path);
 }
 
