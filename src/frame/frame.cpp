@@ -4,6 +4,7 @@
 // The page: every pass of a frame in the order in which it runs.
 #include "frame/frame.h"
 
+#include "frame/standing.h"
 #include "frame/view.h"
 #include "frame/volumes.h"
 
@@ -33,15 +34,21 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
   const FrameView view = viewOfFrame(camera, scene, options, memory);
   const gpu::BufferRef view_buffer = graph.uploadOne("frame.view", view);
 
+  const LightPlan plan = planLights(posed.lights, view, scene.boundsMin(), scene.boundsMax(),
+                                    options.shadow_map_size, kShadowBudgetBytes, kMaxShadowMaps, warnings);
+
+  // What of the frames before still stands.
+  const std::string gbuffer_key = gbufferKey(scene, view), shadow_key = shadowKey(scene, plan);
+  graph.setKeeps(!options.repeats || gbuffer_key != memory.gbuffer_key || shadow_key != memory.shadow_key);
+  memory.gbuffer_key = gbuffer_key, memory.shadow_key = shadow_key;
+
   // What the camera sees.
-  const GBuffer gbuffer =
-      recordGBuffer(graph, scene, view_buffer, options.width, options.height, options.supersample);
+  const GBuffer gbuffer = recordGBuffer(graph, scene, view_buffer, options.width, options.height,
+                                        options.supersample, gbuffer_key);
   if (options.motion) recordMotion(graph, scene, gbuffer, view_buffer);
 
   // What the lamps see.
-  const LightPlan plan = planLights(posed.lights, view, scene.boundsMin(), scene.boundsMax(),
-                                    options.shadow_map_size, kShadowBudgetBytes, kMaxShadowMaps, warnings);
-  const ShadowMaps shadow_maps = recordShadowMaps(graph, scene, plan);
+  const ShadowMaps shadow_maps = recordShadowMaps(graph, scene, plan, shadow_key);
 
   // The technique: receivers as it asks for them, then irradiance and fields.
   Receivers receivers(graph, gbuffer, view_buffer);

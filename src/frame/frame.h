@@ -23,11 +23,15 @@ struct FrameOptions {
   const Emission* emission = nullptr;   ///< what these send
   std::span<const Patch> flats = {};    ///< what has none, as blockers of light
   std::string_view show = {};           ///< FrameInputs::show
+  /// The same technique, options and light as in the frame before. Where camera, scene and lamps are the same, too, somebody
+  /// measures: all of the frame is drawn. Else what still stands of the frames before is taken from them.
+  bool repeats = true;
 };
 
 /// What one frame leaves to the next.
 struct FrameMemory {
   std::optional<FrameView> view;
+  std::string gbuffer_key, shadow_key;
 };
 
 /// Adds all passes of a frame to the graph and says where the pictures will be. Throws Error where camera,

@@ -29,11 +29,14 @@ void drawSurface(gpu::RasterPass& pass, const GpuScene& scene, std::uint32_t mes
 }
 
 GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::BufferRef view, int width,
-                      int height, int supersample) {
+                      int height, int supersample, const std::string& key) {
+  bool stands = true;
   GBuffer gbuffer{.width = width * supersample, .height = height * supersample, .supersample = supersample};
   const auto image = [&](const char* name, VkFormat format) {
-    return graph.create(name,
-                        gpu::ImageDesc{.format = format, .width = gbuffer.width, .height = gbuffer.height});
+    const gpu::KeptImage kept = graph.keep(
+        name, gpu::ImageDesc{.format = format, .width = gbuffer.width, .height = gbuffer.height}, key);
+    stands &= kept.holds;
+    return kept.image;
   };
   gbuffer.depth = image("frame.depth", VK_FORMAT_D32_SFLOAT);
   gbuffer.ids = image("frame.ids", VK_FORMAT_R32G32_UINT);
@@ -41,6 +44,7 @@ GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::Buffer
   gbuffer.diffuse = image("frame.diffuse", VK_FORMAT_R16G16B16A16_SFLOAT);
   gbuffer.specular = image("frame.specular", VK_FORMAT_R16G16B16A16_SFLOAT);
   gbuffer.emission = image("frame.emission", VK_FORMAT_R16G16B16A16_SFLOAT);
+  if (stands) return gbuffer;
 
   const std::array<std::uint32_t, 4> nothing = {0, 0, 0, 0};
   const std::array<float, 4> black = {0.0f, 0.0f, 0.0f, 0.0f};

@@ -24,10 +24,10 @@ struct GBuffer {
 /// Bytes a pixel that it takes.
 inline constexpr int kGBufferBytes = 4 + 8 + 8 + 8 + 8 + 8;
 
-/// Adds the raster pass "frame.gbuffer". `view` is the buffer of the frame's FrameView, `width` and
-/// `height` are the picture's.
+/// Adds the raster pass "frame.gbuffer", unless what was drawn with the same `key` (standing.h) still stands. `view` is the
+/// buffer of the frame's FrameView, `width` and `height` are the picture's.
 GBuffer recordGBuffer(gpu::FrameGraph& graph, const GpuScene& scene, gpu::BufferRef view, int width,
-                      int height, int supersample);
+                      int height, int supersample, const std::string& key);
 
 /// Draws instances at places first_place … of the order of drawing, in a pass of the G-buffer's shaders.
 void drawSurface(gpu::RasterPass& pass, const GpuScene& scene, std::uint32_t mesh, std::uint32_t first_place,

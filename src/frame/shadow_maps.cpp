@@ -31,16 +31,19 @@ void addDraws(gpu::RasterPass& pass, const GpuScene& scene, const glm::mat4& cli
 
 }  // namespace
 
-ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan) {
+ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan,
+                            const std::string& key) {
   ShadowMaps result;
   result.lights = plan.lights;
   result.light_rows = graph.upload("frame.lights", plan.lights);
   result.view_rows = graph.upload("frame.shadow_views", plan.shadow_views);
   const int layers = std::max(static_cast<int>(plan.shadow_views.size()), 1);
   const int size = plan.shadow_views.empty() ? 1 : plan.map_size;
-  result.maps = graph.create(
+  const gpu::KeptImage kept = graph.keep(
       "frame.shadow_maps",
-      gpu::ImageDesc{.format = VK_FORMAT_D32_SFLOAT, .width = size, .height = size, .layers = layers});
+      gpu::ImageDesc{.format = VK_FORMAT_D32_SFLOAT, .width = size, .height = size, .layers = layers}, key);
+  result.maps = kept.image;
+  if (kept.holds) return result;
   if (plan.shadow_views.empty()) {
     graph.clear("frame.shadow_maps", result.maps);
     return result;

@@ -27,7 +27,8 @@ struct ShadowMaps {
 };
 
 /// Draws the scene into every map: passes "frame.shadow_maps", and "frame.shadow_maps_masked" where materials
-/// have holes.
-ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan);
+/// have holes; neither where maps that were drawn with the same `key` (standing.h) still stand.
+ShadowMaps recordShadowMaps(gpu::FrameGraph& graph, const GpuScene& scene, const LightPlan& plan,
+                            const std::string& key);
 
 }  // namespace gloam::frame

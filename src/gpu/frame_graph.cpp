@@ -95,6 +95,13 @@ BufferHistory FrameGraph::history(const std::string& name, const BufferDesc& des
   return history;
 }
 
+KeptImage FrameGraph::keep(const std::string& name, const ImageDesc& desc, const std::string& key) {
+  return state_->pool.keep(name, desc, key);
+}
+void FrameGraph::setKeeps(bool keeps) {
+  state_->pool.setKeeps(keeps);
+}
+
 void FrameGraph::resetHistory() {
   state_->pool.resetHistory();
 }

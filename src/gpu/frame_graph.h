@@ -36,6 +36,13 @@ struct BufferHistory {
   BufferRef previous, current;
 };
 
+/// An image that frames ask for with a key of what it is made of. `holds`: an earlier frame wrote it with the same key, and it
+/// is read as it stands; else this frame writes all of it.
+struct KeptImage {
+  ImageRef image;
+  bool holds = false;
+};
+
 /// For a window or a host engine: what to wait for before the frame and to signal after it.
 struct SubmitInfo {
   VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
@@ -78,6 +85,10 @@ class FrameGraph {
   BufferRef import(const std::string& name, const Buffer& buffer);
   ImageHistory history(const std::string& name, const ImageDesc& desc);
   BufferHistory history(const std::string& name, const BufferDesc& desc);
+  /// Stays while frames ask for it, of two sizes where they are small. An empty key never holds; nothing does before setKeeps().
+  KeptImage keep(const std::string& name, const ImageDesc& desc, const std::string& key);
+  /// Whether kept images may hold in this frame. Off at first: then all of a frame is drawn.
+  void setKeeps(bool keeps);
   /// Forgets what all history holds: the frame that begins next starts from zero.
   void resetHistory();
 

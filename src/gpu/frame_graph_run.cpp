@@ -149,6 +149,7 @@ void FrameGraph::execute(const SubmitInfo& submit) {
   }
   barriers.record(state.device, commands);
   state.slot().value = state.device.state().submit(commands, wait, submit.signal);
+  state.pool.finish();
 }
 
 void FrameGraph::wait() {

@@ -182,6 +182,54 @@ TEST(FrameGraph, BufferHistoryToo) {
   }
 }
 
+/// Fills the kept image where it does not hold; what it then contains at its first texel.
+float drawKept(FrameGraph& graph, const std::string& key, float offset, const ImageDesc& desc = kFloats) {
+  graph.begin();
+  const KeptImage kept = graph.keep("test.kept", desc, key);
+  const FillParams fill{{1.0f, 100.0f}, offset};
+  if (!kept.holds)
+    graph.compute("test.fill", gpu_fill_spv).write("target", kept.image).push(fill).dispatchOver(kept.image);
+  const auto sums = graph.create("test.sums", BufferDesc{.bytes = 19 * 13 * 4});
+  graph.compute("test.gather", gpu_gather_spv).read("source", kept.image).write("Sums", sums).dispatch(1);
+  graph.execute();
+  return graph.find("test.kept").image().downloadFloats()[0];
+}
+
+TEST(FrameGraph, KeptImagesHoldAsLongAsTheirKeyStays) {
+  FrameGraph graph(testDevice());
+  EXPECT_EQ(drawKept(graph, "a", 1.0f), 1.0f);
+  EXPECT_EQ(drawKept(graph, "a", 2.0f), 2.0f);  // nothing holds before setKeeps()
+  graph.setKeeps(true);
+  EXPECT_EQ(drawKept(graph, "a", 3.0f), 2.0f);
+  EXPECT_EQ(drawKept(graph, "b", 4.0f), 4.0f);
+  EXPECT_EQ(drawKept(graph, "", 5.0f), 5.0f);
+  EXPECT_EQ(drawKept(graph, "", 6.0f), 6.0f);
+  // Two small sizes stand side by side.
+  ImageDesc small = kFloats;
+  small.width = 5;
+  EXPECT_EQ(drawKept(graph, "c", 7.0f), 7.0f);
+  EXPECT_EQ(drawKept(graph, "c", 8.0f, small), 8.0f);
+  EXPECT_EQ(drawKept(graph, "c", 9.0f), 7.0f);
+  EXPECT_EQ(drawKept(graph, "c", 9.0f, small), 8.0f);
+  for (int i = 0; i < 20; ++i) drawKept(graph, "c", 0.0f, small);
+  EXPECT_EQ(drawKept(graph, "c", 10.0f), 10.0f);  // nobody asked for it for long
+  graph.setKeeps(false);
+  EXPECT_EQ(drawKept(graph, "c", 11.0f), 11.0f);
+}
+
+TEST(FrameGraph, WhatAFrameDidNotWriteIsNotKept) {
+  FrameGraph graph(testDevice());
+  graph.setKeeps(true);
+  graph.begin();
+  EXPECT_FALSE(graph.keep("test.kept", kFloats, "a").holds);
+  graph.execute();  // nothing wrote it
+  EXPECT_EQ(drawKept(graph, "a", 1.0f), 1.0f);
+  graph.begin();
+  graph.keep("test.kept", kFloats, "b");  // and this frame never runs
+  EXPECT_EQ(drawKept(graph, "b", 2.0f), 2.0f);
+  EXPECT_EQ(drawKept(graph, "b", 3.0f), 2.0f);
+}
+
 TEST(FrameGraph, HostPassesRunBetweenGpuPasses) {
   for (const bool host_visible : {false, true}) {
     FrameGraph graph(testDevice());

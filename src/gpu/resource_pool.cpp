@@ -9,6 +9,7 @@ namespace gloam::gpu {
 namespace {
 
 constexpr std::uint64_t kFramesToKeep = 16;
+constexpr std::uint64_t kSpareBytes = 16u << 20;  // of an image of another size than the one asked for
 
 bool sameDesc(const Image& image, ImageDesc desc) {
   if (desc.mips == kAllMips) desc.mips = image.desc().mips;
@@ -47,6 +48,9 @@ void ResourcePool::begin(std::uint64_t frame) {
   };
   evict(images_);
   evict(buffers_);
+  for (auto& [name, sizes] : kept_)
+    std::erase_if(sizes, [&](const Kept& kept) { return kept.used_in_frame + kFramesToKeep < frame; });
+  std::erase_if(kept_, [](const auto& item) { return item.second.empty(); });
   frame_ = frame;
   names_.clear();
   image_names_.clear();
@@ -118,6 +122,35 @@ BufferHistory ResourcePool::history(const std::string& name, const BufferDesc& d
   return {found.resources[1 - found.current], found.resources[found.current]};
 }
 
+/// The entry of that description. Another one stays beside it where it is small, the newest of them.
+ResourcePool::Kept& ResourcePool::keptOf(const std::string& name, const ImageDesc& desc) {
+  std::vector<Kept>& sizes = kept_[name];
+  const auto found =
+      std::ranges::find_if(sizes, [&](const Kept& kept) { return sameDesc(kept.image, desc); });
+  if (found != sizes.end()) return *found;
+  std::erase_if(sizes, [](const Kept& kept) { return kept.image.memoryBytes() > kSpareBytes; });
+  if (sizes.size() > 1) sizes.erase(std::ranges::min_element(sizes, {}, &Kept::used_in_frame));
+  return sizes.emplace_back(Kept{Image(device_, name, desc), "", 0, 0});
+}
+
+KeptImage ResourcePool::keep(const std::string& name, const ImageDesc& desc, const std::string& key) {
+  claim(name);
+  Kept& kept = keptOf(name, desc);
+  kept.used_in_frame = frame_;
+  image_names_[name] = kept.image;
+  const auto written = [&](const PartState& part) {
+    return part.written_in_frame == kept.keyed_in_frame || part.written_in_frame == PartState::kAlways;
+  };
+  const bool holds = keeps_ && !key.empty() && kept.key == key && kept.keyed_in_frame <= finished_frame_ &&
+                     std::ranges::all_of(kept.image.state().parts, written);
+  if (!holds) {
+    kept.key = key;
+    kept.keyed_in_frame = frame_;
+  }
+  kept.image.state().setWritten(holds ? PartState::kAlways : 0);
+  return {kept.image, holds};
+}
+
 void ResourcePool::resetHistory() {
   reset_history_ = true;
 }
@@ -152,6 +185,9 @@ std::uint64_t ResourcePool::memoryBytes() const {
   std::uint64_t sum = 0;
   for (const auto& [name, entry] : images_) sum += entry.resource.memoryBytes();
   for (const auto& [name, entry] : buffers_) sum += entry.resource.bytes();
+  for (const auto& [name, sizes] : kept_) {
+    for (const Kept& kept : sizes) sum += kept.image.memoryBytes();
+  }
   for (const auto& [name, pair] : image_histories_) {
     for (const auto& image : pair.resources) sum += image.memoryBytes();
   }

@@ -30,6 +30,10 @@ class ResourcePool {
   BufferHistory history(const std::string& name, const BufferDesc& desc, bool& fresh);
   /// From the next frame on.
   void resetHistory();
+  KeptImage keep(const std::string& name, const ImageDesc& desc, const std::string& key);
+  void setKeeps(bool keeps) { keeps_ = keeps; }
+  /// All passes of this frame have run or are on their way: what they wrote may be kept.
+  void finish() { finished_frame_ = frame_; }
   void import(const std::string& name, const ImageRef& image);
   void import(const std::string& name, const BufferRef& buffer);
 
@@ -51,7 +55,14 @@ class ResourcePool {
     std::uint64_t used_in_frame = 0;
   };
 
+  struct Kept {
+    Image image;
+    std::string key;
+    std::uint64_t keyed_in_frame = 0, used_in_frame = 0;
+  };
+
   void claim(const std::string& name);
+  Kept& keptOf(const std::string& name, const ImageDesc& desc);
   template <class T, class Desc>
   const T& transient(std::map<std::string, Entry<T>>& entries, const std::string& name, const Desc& desc);
   template <class T, class Desc>
@@ -59,11 +70,12 @@ class ResourcePool {
                 bool& fresh);
 
   Device& device_;
-  std::uint64_t frame_ = 0;
-  bool reset_history_ = false;
+  std::uint64_t frame_ = 0, finished_frame_ = 0;
+  bool reset_history_ = false, keeps_ = false;
   std::set<std::string> names_;  ///< taken in this frame
   std::map<std::string, Entry<Image>> images_;
   std::map<std::string, Entry<Buffer>> buffers_;
+  std::map<std::string, std::vector<Kept>> kept_;  ///< two sizes at most
   std::map<std::string, Pair<Image>> image_histories_;
   std::map<std::string, Pair<Buffer>> buffer_histories_;
   std::map<std::string, ImageRef> image_names_;  ///< what find() gives

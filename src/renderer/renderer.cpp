@@ -4,6 +4,7 @@
 #include <gloam/renderer.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "frame/frame.h"
 #include "renderer/emission_set.h"
@@ -23,6 +24,7 @@ struct Renderer::Impl {
     return *technique;
   }
   void checkSize(const frame::FrameOptions& options) const;
+  bool repeats(const RenderOptions& options, const Settings& settings);
 
   std::unique_ptr<gpu::Device> device;
   gpu::FrameGraph graph;
@@ -32,6 +34,8 @@ struct Renderer::Impl {
   std::optional<EmissionSet> sent;
   std::map<std::string, std::unique_ptr<Technique>> techniques;
   frame::FrameMemory memory;
+  std::string request;  ///< of the last frame
+  bool relit = true;    ///< since then: by another light, or other spheres
 };
 
 namespace {
@@ -97,6 +101,15 @@ void Renderer::Impl::checkSize(const frame::FrameOptions& options) const {
                                     device->info().name, had >> 20));
 }
 
+/// Whether all but scene and camera is as in the last frame.
+bool Renderer::Impl::repeats(const RenderOptions& options, const Settings& settings) {
+  std::string now = fmt::format("{} {} {} {} {}", options.technique, options.supersample, options.background,
+                                options.layers, options.show);
+  for (const auto& [name, value] : settings.list()) now += fmt::format(" {}={}", name, value);
+  const bool same = now == std::exchange(request, now);
+  return !std::exchange(relit, false) && same;
+}
+
 Renderer::Renderer(const std::string& device)
     : impl_(std::make_unique<Impl>(gpu::Device::create({.choice = device}))) {}
 Renderer::Renderer(const HostDevice& host)
@@ -118,6 +131,7 @@ void Renderer::setSpheres(const Scene& scene, const SceneSpheres& spheres) {
   if (!impl_->scene) throw Error("renderer", "no scene was set");
   impl_->sent.reset();
   impl_->proxies.emplace(scene, spheres);
+  impl_->relit = true;
 }
 
 void Renderer::setEmission(const Scene& scene, const SceneEmission& emission) {
@@ -127,6 +141,7 @@ void Renderer::setEmission(const Scene& scene, const SceneEmission& emission) {
 
 void Renderer::setEnvironment(const Environment& environment) {
   impl_->environment.set(environment);
+  impl_->relit = true;
 }
 
 RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camera,
@@ -137,6 +152,7 @@ RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camer
   impl_->checkSize(frame_options);
   if (!impl_->scene) throw Error("renderer", "no scene was set");
   Technique& technique = impl_->techniqueFor(info.name);
+  frame_options.repeats = impl_->repeats(options, settings);
   std::vector<frame::Proxy> proxies;
   std::vector<frame::Patch> flats;
   frame::Emission sent;

@@ -4,6 +4,9 @@
 // The public renderer as programs use it.
 #include <gloam/renderer.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "golden.h"
 #include "gpu/test_device.h"
 
@@ -66,6 +69,61 @@ TEST(Renderer, SameFrameSameBits) {
   for (std::size_t i = 0; i < first.layers.layers.size(); ++i) {
     EXPECT_EQ(first.layers.layers[i].pixels, second.layers.layers[i].pixels) << first.layers.layers[i].name;
     EXPECT_EQ(first.layers.layers[i].ids, second.layers.layers[i].ids);
+  }
+}
+
+bool has(const RenderedFrame& frame, const std::string& pass) {
+  return std::ranges::any_of(frame.passes, [&](const PassTime& time) { return time.name == pass; });
+}
+
+/// Techniques, options and light change neither what the camera nor what the lamps see.
+TEST(Renderer, WhatStillStandsIsNotDrawnAgain) {
+  const Scene scene = loadScene("builtin:cornell?detail=0.25");
+  renderer().setScene(scene);
+  PosedScene posed = pose(scene, 0.0f);
+  PosedCamera camera = cameraOf(posed);
+  RenderOptions options{.width = 48, .height = 32, .timings = true};
+  const auto expect = [&](bool gbuffer, bool shadow_maps) {
+    const RenderedFrame frame = renderer().render(posed, camera, options);
+    EXPECT_EQ(has(frame, "frame.gbuffer"), gbuffer);
+    EXPECT_EQ(has(frame, "frame.shadow_maps"), shadow_maps);
+    return frame;
+  };
+  const RenderedFrame first = expect(true, true);
+  expect(true, true);  // asked for twice: it is measured
+  options.technique = "splatting", options.settings = Settings(technique("splatting").options);
+  expect(false, false);
+  expect(true, true);
+  renderer().setEnvironment(loadEnvironment("sky:noon"));
+  expect(false, false);
+  options.settings.set("vpls", "64");
+  expect(false, false);
+  options.width = 24;  // another size stands beside it
+  expect(true, false);
+  const PosedCamera there = std::exchange(camera, framingCamera(posed, 1.0f));
+  expect(true, false);
+  camera = there;
+  renderer().setEnvironment(scene.environment);
+  options = {.width = 48, .height = 32, .timings = true};
+  const RenderedFrame again = expect(false, false);
+  for (std::size_t i = 0; i < first.layers.layers.size(); ++i) {
+    EXPECT_EQ(first.layers.layers[i].pixels, again.layers.layers[i].pixels) << first.layers.layers[i].name;
+    EXPECT_EQ(first.layers.layers[i].ids, again.layers.layers[i].ids);
+  }
+  posed.instances[0].world_from_object[3].y += 0.01f;
+  expect(true, true);
+}
+
+/// Vertices of what bends come anew every frame, though nothing else tells.
+TEST(Renderer, WhatBendsIsDrawnInEveryFrame) {
+  const Scene scene = loadScene("builtin:walker?detail=0.25");
+  renderer().setScene(scene);
+  const PosedScene posed = pose(scene, 0.0f);
+  RenderOptions options{.width = 24, .height = 24, .timings = true};
+  for (const char* order : {"2", "3", "4"}) {
+    options.settings = Settings(technique("irradiance").options);
+    options.settings.set("order", order);
+    EXPECT_TRUE(has(renderer().render(posed, cameraOf(posed), options), "frame.gbuffer"));
   }
 }
 
