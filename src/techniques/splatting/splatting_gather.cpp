@@ -146,7 +146,8 @@ void recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, cons
   const std::size_t sets = lights.sets.size();
   // Shadows are looked for toward every light; merged ones would stand beside what hides them.
   std::size_t next = options.world ? 0 : (sets > 1 ? sets - 2 : sets);
-  gpu::BufferRef list = next < sets ? step.makeList(next) : graph.findBuffer("splatting.nothing");
+  gpu::BufferRef list =
+      next < sets ? step.makeList(next) : graph.create("splatting.no_list", gpu::BufferDesc{.bytes = 4});
   for (int k = plan.coarsest; k >= plan.finest; --k) recordCoarse(step, k, next, list);
   while (next < sets) {
     recordSet(step, next, list);

@@ -234,6 +234,9 @@ TEST(Splatting, LevelsFitAnyPicture) {
                   many = draw(scene, settings({}), width, height);
     EXPECT_LT(relativeError(many, full), 0.08) << width << ' ' << height;
   }
+  // Lights too few for a second set of merged ones.
+  const Picture few = draw(scene, settings({{"vpls", "16"}}), 48, 32);
+  EXPECT_LT(relativeError(few, draw(scene, settings({{"mode", "full"}, {"vpls", "16"}}), 48, 32)), 0.2);
   // Fewer texels than pixels at the finest level, down to none but the coarsest.
   const Picture full = draw(scene, settings({{"mode", "full"}}), 128, 128);
   for (const char* resolution : {"64", "32", "16", "1"})
