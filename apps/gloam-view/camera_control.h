@@ -23,7 +23,9 @@ class CameraControl {
   void zoom(float steps);                   ///< toward the target; negative: away
   void fly(const glm::vec3& right_up_forward);  ///< metres
   void frame(const glm::vec3& low, const glm::vec3& high, float aspect);
-  void setFov(float vertical_rad) { camera_.vertical_fov_rad = vertical_rad; }
+  void setFov(float vertical_rad) { camera_.perspective = true, camera_.vertical_fov_rad = vertical_rad; }
+  /// Orthographic from now on, so many metres high.
+  void setOrtho(float height_m) { camera_.perspective = false, camera_.half_height = 0.5f * height_m; }
 
   const Camera& camera() const { return camera_; }
   glm::vec3 eye() const { return target_ - forward() * distance_; }

@@ -26,6 +26,7 @@ class FrameHistory {
   const std::vector<Row>& rows() const { return rows_; }
   double medianMs() const { return median_ms_; }
   double p95Ms() const { return p95_ms_; }
+  std::size_t counted() const { return counted_; }  ///< pictures of the newest one's size, which these are of
   /// As `gloam bench --json` has it, with memory by resource.
   cli::Json json(const Drawn& drawn, const std::string& scene, double ui_device_ms) const;
 

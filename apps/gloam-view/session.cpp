@@ -86,7 +86,11 @@ void Session::open(const std::string& name, bool ground) {
     choice.moves.clear();
     choice.light.environment = environment_name;
   }
-  openChoice(choice, {});
+  openChoice(choice, [this, before = read_light_.count] {
+    if (read_light_.count == before) return;  // else a probe was dropped just before the scene: it stays
+    state.base = read_light_.base;
+    environment_name = read_light_.name;
+  });
 }
 
 /// Reads scene and light. `then` runs when they are shown.
@@ -142,7 +146,7 @@ void Session::adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<co
 }
 
 void Session::openEnvironment(const std::string& name) {
-  if (!state.scene) return;
+  if (!state.scene) return say(fmt::format("{}: no scene is there yet", name), true);
   const auto scene = state.scene;
   const cli::LightChoice light{.environment = name, .light_texts = light_texts, .lights = state.lights};
   const auto work = [this, scene, light, name](JobConsole& console) -> Jobs::Finish {
@@ -151,6 +155,7 @@ void Session::openEnvironment(const std::string& name) {
     return [this, base, name] {
       state.base = base;
       environment_name = name;
+      read_light_ = {base, name, read_light_.count + 1};
       changed();
     };
   };
@@ -242,7 +247,7 @@ std::vector<bool> Session::chosenInstances() const {
 /// For what is clicked, outlined or inspected.
 bool Session::wantsLayers() const {
   const std::vector<bool> chosen = chosenInstances();
-  return inspects_ || click_ || std::ranges::find(chosen, true) != chosen.end();
+  return inspects_ || click_ || !pending_exr_.empty() || std::ranges::find(chosen, true) != chosen.end();
 }
 
 void Session::loseDevice() {

@@ -76,6 +76,7 @@ class Session {
   void inspect(bool inspects);           ///< pictures have all layers from now on
   /// Under a name as a preset or the command line has it ("exposure", "env_rotation", "proxies.spheres"). Throws Error.
   void set(const std::string& name, const std::string& value);
+  /// An .exr holds all layers: where the picture has them not yet, the next one that stands is saved.
   void saveScreenshot(const std::string& path);
   void startVideo(const std::string& path);
   void stopVideo();
@@ -90,6 +91,8 @@ class Session {
   bool idle() const;
   bool moving() const;
   bool drawing() const { return worker_.busy(); }
+  /// What takes so long, while the first picture of a kind is drawn: a line for people; empty where nothing does.
+  std::string firstPicture() const;
   /// Asks for the picture of what has changed since update(), which would else ask a frame of the window later.
   void requestPicture();
 
@@ -141,6 +144,7 @@ class Session {
   void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base);
   void adoptChoice(const ViewerChoice& choice);
   void prepare();
+  void carryMoves(const Scene& from, const Scene& to);
   void startBake(const Pick& pick);
   void startSpheres(int count, bool emission);
   void takePicks();
@@ -153,11 +157,21 @@ class Session {
   ReferenceKey referenceKey() const;
   void dropReference();
   void followReference();
+  bool stands() const;  ///< idle(), but for pictures that are to be saved
   bool wantsLayers() const;
+  void savePending();
   void followShaders();
   void select(const Drawn& drawn);
 
+  /// Light from afar that was asked for by itself.
+  struct ReadLight {
+    std::shared_ptr<const DistantLight> base;
+    std::string name;
+    int count = 0;
+  };
+
   ViewerChoice choice_;
+  ReadLight read_light_;
   RecentFiles recent_;
   ShaderWatch shaders_;
   std::uint64_t serial_ = 1, sent_serial_ = 0, still_serial_ = 0;
@@ -171,12 +185,15 @@ class Session {
   std::clock_t switch_clock_ = 0;
   std::uint64_t response_serial_ = 0;
   int response_from_ = 0, slowest_response_ = 0;
+  double asked_s_ = 0.0;   ///< since when the picture that is on its way has been drawn
+  std::string sent_kind_;  ///< of what was asked for last
   float duration_s_ = 0.0f;
   bool preparing_ = false, first_ = true;
   int growths_ = 0;          ///< of a picture that stands still
   float grown_from_ = 0.0f;  ///< share of the window that the last one grew from
   int selected_node_ = kNone;
   bool inspects_ = false;
+  std::string pending_exr_;         ///< to be saved with all layers
   std::set<std::string> measured_;  ///< kinds of pictures that were drawn of this scene
   std::optional<glm::vec2> click_;
   std::deque<Message> messages_;

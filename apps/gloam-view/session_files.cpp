@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "file_names.h"
 #include "session.h"
@@ -42,6 +43,7 @@ void Session::loadPreset(const std::string& path) {
     takePreset(preset, path);
     if (preset.view.eye && preset.view.target) camera.setTarget(*preset.view.eye, *preset.view.target);
     if (preset.view.fov_deg) camera.setFov(glm::radians(*preset.view.fov_deg));
+    if (preset.view.ortho_m) camera.setOrtho(*preset.view.ortho_m);
     if (wholeName(preset.light.environment) != wholeName(environment_name))
       openEnvironment(preset.light.environment);
     prepare();
@@ -89,6 +91,10 @@ void Session::savePreset(const std::string& path) {
 void Session::saveScreenshot(const std::string& path) {
   try {
     if (!drawn_) throw Error(path, "nothing is drawn yet");
+    if (path.ends_with(".exr") && drawn_->left.layers->find("normal") == nullptr) {
+      pending_exr_ = path;
+      return changed();
+    }
     const LayeredImage* right = drawn_->split                                    ? drawn_->right.layers.get()
                                 : reference_ && state.split == Split::kReference ? reference_->layers.get()
                                                                                  : nullptr;
@@ -97,6 +103,11 @@ void Session::saveScreenshot(const std::string& path) {
   } catch (const std::exception& error) {
     say(error.what(), true);
   }
+}
+
+void Session::savePending() {
+  if (pending_exr_.empty() || !drawn_ || drawn_->left.layers->find("normal") == nullptr || !stands()) return;
+  saveScreenshot(std::exchange(pending_exr_, {}));
 }
 
 void Session::startVideo(const std::string& path) {

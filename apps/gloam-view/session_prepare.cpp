@@ -38,6 +38,20 @@ void Session::prepare() {
   if (cli::showsSpheres(state.show) && !state.needs.spheres) startSpheres(SphereOptions{}.count, false);
 }
 
+/// What was moved stays moved where a bake has made more nodes, or put them in another order: by their names.
+void Session::carryMoves(const Scene& from, const Scene& to) {
+  if (to.nodes.size() == from.nodes.size()) return;
+  choose(kNone);
+  try {
+    std::vector<cli::MoveText> texts;
+    for (const std::string& text : cli::moveTexts(from, state.moves)) texts.push_back(cli::parseMove(text));
+    state.moves = cli::movesIn(to, texts);
+  } catch (const Error& error) {
+    state.moves.clear();
+    say(fmt::format("what was moved is back in its place: {}", error.what()));
+  }
+}
+
 void Session::startBake(const Pick& pick) {
   preparing_ = true;
   const auto scene = state.scene;
@@ -48,7 +62,7 @@ void Session::startBake(const Pick& pick) {
     return [this, scene, loaded] {
       preparing_ = false;
       if (state.scene == scene) {  // not another one in the meantime
-        if (loaded->scene.nodes.size() != scene->scene.nodes.size()) state.moves.clear();
+        carryMoves(scene->scene, loaded->scene);
         state.scene = loaded;
         state.needs = {};
         resolution.forget();

@@ -65,6 +65,7 @@ const std::map<std::string, Setter>& setters() {
       {"scale", [](S& s, T& n, T& v) { s.resolution.fixed = v == "auto" ? 0.0f : numberOf(n, v, 0.05, 1); }},
       {"divider", [](S& s, T& n, T& v) { s.divider = numberOf(n, v, 0, 1); }},
       {"fov", [](S& s, T& n, T& v) { s.camera.setFov(glm::radians(numberOf(n, v, 1, 170))); }},
+      {"ortho", [](S& s, T& n, T& v) { s.camera.setOrtho(numberOf(n, v, 1e-6, 1e9)); }},
       {"eye", [](S& s, T& n, T& v) { s.camera.setTarget(cli::parseVector(n, v), s.camera.target()); }},
       {"target", [](S& s, T& n, T& v) { s.camera.setTarget(s.camera.eye(), cli::parseVector(n, v)); }},
       {"reference_samples",

@@ -51,6 +51,7 @@ void Session::update(int width, int height) {
   takeReference();
   advance();
   requestPicture();
+  savePending();
   followReference();
   followShaders();
 }
@@ -65,6 +66,7 @@ void Session::takeDrawn() {
   std::shared_ptr<const Drawn> drawn = worker_.take();
   if (!drawn) return;
   answered_serial_ = drawn->serial;
+  asked_s_ = now_s();
   answered_width_ = drawn->width;
   if (!drawn->error.empty()) return takeProblem(*drawn);
   losses_ = 0;
@@ -186,11 +188,21 @@ void Session::requestPicture() {
   state.height = height;
   state.layers = wantsLayers();
   state.camera = camera.posed();
+  if (!worker_.busy()) asked_s_ = now_s();
+  sent_kind_ = kind;
   worker_.request(serial_, state);
   sent_serial_ = serial_;
   sent_width_ = width;
   sent_height_ = height;
   if (!moves) still_serial_ = serial_, still_width_ = width_, still_height_ = height_;
+}
+
+std::string Session::firstPicture() const {
+  constexpr double kPatienceSeconds = 0.7;
+  const double since = now_s() - asked_s_;
+  if (!worker_.busy() || measured_.contains(sent_kind_) || since < kPatienceSeconds) return "";
+  return fmt::format("First picture of {}: the device compiles its shaders, {:.0f} s", state.left.info->name,
+                     since);
 }
 
 /// Sources that were edited are compiled in the background; what goes wrong leaves the shader as it was.
@@ -211,6 +223,10 @@ void Session::followShaders() {
 }
 
 bool Session::idle() const {
+  return stands() && pending_exr_.empty();
+}
+
+bool Session::stands() const {
   const bool shown = !jobs_.status().busy && !preparing_ && !worker_.busy() && drawn_ &&
                      answered_serial_ == serial_ && answered_width_ == sent_width_;
   if (dragging) return shown && !playing && now_s() - last_change_s_ >= kStillSeconds;

@@ -145,7 +145,15 @@ void lightSection(Session& session) {
 void cameraSection(Session& session) {
   if (!section("Camera", false)) return;
   const Camera& camera = session.camera.camera();
-  if (camera.perspective) {
+  if (!camera.perspective) {
+    float height = 2.0f * camera.half_height;
+    label("height", "of what an orthographic camera shows, in metres");
+    if (ImGui::DragFloat("##height", &height, 0.01f * height, 1e-4f, 1e6f, "%.3g m",
+                         ImGuiSliderFlags_AlwaysClamp)) {
+      session.camera.setOrtho(height);
+      session.changed();
+    }
+  } else {
     float fov = glm::degrees(camera.vertical_fov_rad);
     label("field of view");
     if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f°")) {

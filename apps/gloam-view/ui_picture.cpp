@@ -148,10 +148,24 @@ void messageList(const Session& session, const UiState& ui, const Place& place, 
   }
 }
 
+/// Nobody knows how long it takes: a piece that goes to and fro.
+void restlessBar(const ImVec2& size, double now_s) {
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float share = 0.2f, at = 0.5f * (1.0f - share) * (1.0f - std::cos(2.0f * float(now_s)));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
+  list.AddRectFilled({low.x + at * size.x, low.y}, {low.x + (at + share) * size.x, low.y + size.y},
+                     ImGui::GetColorU32(ImGuiCol_PlotHistogram), rounding);
+  ImGui::Dummy(size);
+}
+
 /// Height that it takes.
 float progressBar(Session& session, const UiState& ui, const Place& place) {
   const Jobs::Status job = session.job();
-  if (!job.busy || place.size.x < 140.0f * ui.scale || place.size.y < 90.0f * ui.scale) return 0.0f;
+  const std::string first = job.busy ? "" : session.firstPicture();
+  if ((!job.busy && first.empty()) || place.size.x < 140.0f * ui.scale || place.size.y < 90.0f * ui.scale)
+    return 0.0f;
   const float height = 52.0f * ui.scale, width = std::min(place.size.x - 32.0f * ui.scale, 560.0f * ui.scale);
   ImGui::SetNextWindowPos({16.0f * ui.scale, place.size.y - height - 14.0f * ui.scale});
   ImGui::SetNextWindowSize({width, height});
@@ -159,14 +173,18 @@ float progressBar(Session& session, const UiState& ui, const Place& place) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 4.0f * ui.scale);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0f * ui.scale, 7.0f * ui.scale});
   ImGui::Begin("progress", nullptr, plain());
-  const float button = 70.0f * ui.scale;
-  const std::string text = job.step.empty() ? job.what : fmt::format("{}: {}", job.what, job.step);
-  ImGui::BeginGroup();
-  fittedLine(text, width - button - 36.0f * ui.scale);
-  ImGui::ProgressBar(float(job.fraction), {width - button - 36.0f * ui.scale, 8.0f * ui.scale}, "");
-  ImGui::EndGroup();
-  ImGui::SameLine();
-  if (ImGui::Button("Stop", {button, 36.0f * ui.scale})) session.cancelJob();
+  if (job.busy) {
+    const float button = 70.0f * ui.scale, bar = width - button - 36.0f * ui.scale;
+    ImGui::BeginGroup();
+    fittedLine(job.step.empty() ? job.what : fmt::format("{}: {}", job.what, job.step), bar);
+    ImGui::ProgressBar(float(job.fraction), {bar, 8.0f * ui.scale}, "");
+    ImGui::EndGroup();
+    ImGui::SameLine();
+    if (ImGui::Button("Stop", {button, 36.0f * ui.scale})) session.cancelJob();
+  } else {
+    fittedLine(first, width - 28.0f * ui.scale);
+    restlessBar({width - 28.0f * ui.scale, 8.0f * ui.scale}, session.now_s());
+  }
   ImGui::End();
   ImGui::PopStyleVar(2);
   return height + 18.0f * ui.scale;

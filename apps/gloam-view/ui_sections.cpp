@@ -39,21 +39,53 @@ std::string nodeName(const Scene& scene, int node) {
   return name.empty() ? fmt::format("node {}", node) : name;
 }
 
+/// At the right end of a table's cell, as numbers stand.
+void rightText(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+  ImGui::TextUnformatted(text.c_str());
+}
+
+/// Of pictures of the newest one's kind, the oldest on the left; both ends of the scale are written beside it.
+void framePlot(const Session& session, float scale) {
+  const std::vector<float> values = session.history().frameMs();
+  if (values.empty()) return;
+  const float most = *std::ranges::max_element(values);
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, 56.0f * scale);  // a negative width is none here
+  const std::string top = fmt::format("{:.0f} ms", most);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  if (values.size() > 1) {
+    ImGui::PlotLines("##frames", values.data(), int(values.size()), 0, nullptr, 0.0f, most * 1.1f, size);
+  } else {  // of one there is no line
+    ImGui::PlotHistogram("##frames", values.data(), 1, 0, nullptr, 0.0f, most * 1.1f, size);
+  }
+  ImGui::GetWindowDrawList()->AddText({low.x + 6.0f * scale, low.y + 2.0f * scale},
+                                      ImGui::GetColorU32(ImGuiCol_TextDisabled), top.c_str());
+  dim(fmt::format("median {:.1f} ms, p95 {:.1f} ms, of {} of this size", session.history().medianMs(),
+                  session.history().p95Ms(), session.history().counted()));
+}
+
 void passTable(const Session& session) {
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 3, kFlags)) return;
   ImGui::TableSetupColumn("pass", 0, 3.0f);
   ImGui::TableSetupColumn("median ms", 0, 1.25f);
   ImGui::TableSetupColumn("p95", 0, 1.0f);
-  ImGui::TableHeadersRow();
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted("pass");
+  for (const char* name : {"median ms", "p95"}) {
+    ImGui::TableNextColumn();
+    rightText(name);
+  }
   for (const FrameHistory::Row& pass : session.history().rows()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(pass.name.c_str());
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", pass.median_ms);
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", pass.p95_ms);
+    for (const double ms : {pass.median_ms, pass.p95_ms}) {
+      ImGui::TableNextColumn();
+      rightText(fmt::format("{:.2f}", ms));
+    }
   }
   ImGui::EndTable();
 }
@@ -67,7 +99,7 @@ void memoryTable(const Drawn& drawn) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(use.name.c_str());
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(cli::bytesText(double(use.bytes)).c_str());
+      rightText(cli::bytesText(double(use.bytes)));
     }
     ImGui::EndTable();
   }
@@ -116,18 +148,15 @@ void objectSection(Session& session, UiState& ui) {
 void timesSection(Session& session, UiState& ui) {
   const Drawn* drawn = session.drawn();
   if (drawn == nullptr) return;
-  const std::vector<float> values = session.history().frameMs();
-  const float most = values.empty() ? 1.0f : *std::ranges::max_element(values);
-  const std::string text =
-      fmt::format("{:.1f} ms, p95 {:.1f}", session.history().medianMs(), session.history().p95Ms());
-  ImGui::PlotLines("##frames", values.data(), int(values.size()), 0, text.c_str(), 0.0f, most * 1.25f,
-                   {-1.0f, 56.0f * ui.scale});
+  framePlot(session, ui.scale);
+  noteControl(ui, "frame_plot");
   dim(fmt::format("{} x {}, {}", drawn->width, drawn->height, drawn->device.name));
   passTable(session);
   memoryTable(*drawn);
   dim(fmt::format("panels: {:.2f} ms of the device", ui.ui_device_ms));
-  dim(fmt::format("input to picture: {} at most; last switch {:.0f} ms", session.slowestResponse(),
-                  session.lastSwitchMs()));
+  std::string answers = fmt::format("input to picture: {} at most", session.slowestResponse());
+  if (session.lastSwitchMs() > 0.0) answers += fmt::format("; last switch {:.0f} ms", session.lastSwitchMs());
+  dim(answers);
   if (ImGui::Button("Copy as JSON")) {
     ui.copied = cli::jsonText(session.history().json(*drawn, session.scene_name, ui.ui_device_ms));
     session.say("times are on the clipboard");

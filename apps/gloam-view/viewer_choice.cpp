@@ -122,6 +122,8 @@ void writePreset(const std::string& file, const ViewState& state, const CameraCo
   if (camera.camera().perspective) {
     const float degrees = glm::degrees(camera.camera().vertical_fov_rad);
     json["fov"] = cli::shortest(std::clamp(degrees, 1.0f, 170.0f));
+  } else {
+    json["ortho"] = cli::shortest(2.0f * camera.camera().half_height);
   }
   json["time"] = cli::shortest(state.time_s);
   json["exposure"] = cli::shortest(state.display.exposure_stops);

@@ -197,6 +197,29 @@ class ViewerTest(unittest.TestCase):
                        env=self.environment, check=True, timeout=60)
         self.assertNotEqual(png_size_and_rows(self.folder / "still.png")[2], render[2])
 
+    def test_orthographic_cameras_survive_presets(self):
+        self.script([
+            {"wait": "idle"}, {"set": {"ortho": 2.5}}, {"wait": "idle"}, {"save_preset": "preset.json"}, {"screenshot": "view.png"},
+            {"set": {"fov": 40}}, {"wait": "idle"}, {"screenshot": "other.png"}, {"drop": "preset.json"}, {"wait": "idle"},
+            {"screenshot": "back.png"}], BOX, *SMALL, "--no-panel", "--scale", "1")
+        self.assertEqual(json.loads((self.folder / "preset.json").read_text())["ortho"], 2.5)
+        subprocess.run([GLOAM, "render", "--settings", "preset.json", "-o", "render.png", "--quiet"], cwd=self.folder,
+                       env=self.environment, check=True, timeout=60)
+        view, other, back, render = (png_size_and_rows(self.folder / f"{n}.png") for n in ("view", "other", "back", "render"))
+        self.assertEqual(view, back)
+        self.assertNotEqual(view, other)
+        pairs = [(a, b) for u, v in zip(view[2], render[2]) for a, b in zip(u, v)]
+        self.assertLess(sum(abs(a - b) > 2 for a, b in pairs), len(pairs) // 200)
+
+    def test_pictures_as_exr_have_all_layers(self):
+        self.script([{"wait": "idle"}, {"screenshot": "picture.exr"}, {"wait": "idle"}, {"stats": "end.json"}], BOX, *SMALL,
+                    "--scale", "0.5")
+        info = subprocess.run([GLOAM, "info", "picture.exr", "--json"], cwd=self.folder, env=self.environment,
+                              capture_output=True, text=True, check=True, timeout=60)
+        for layer in ["direct", "indirect", "normal", "depth", "albedo", "object"]:
+            self.assertIn(layer, info.stdout)
+        self.assertIn("saved picture.exr", self.stats("end.json")["messages"])
+
     def test_keys_overwrite_nothing(self):
         keys = [{"key": "f2"}, {"wait": 2}, {"key": "f5"}, {"wait": 2}]
         self.script([{"wait": "idle"}, *keys, {"set": {"exposure": 1}}, {"wait": "idle"}, *keys, {"set": {"exposure": 3}},
@@ -248,6 +271,16 @@ class ViewerTest(unittest.TestCase):
         self.assertIn("the renderer starts anew", said)
         self.assertIn("opened anew", said)
         self.assertGreater(len(set(png_size_and_rows(self.folder / "end.png")[2][200])), 8)  # there is a picture again
+
+    def test_a_probe_and_a_scene_dropped_together_are_both_taken(self):
+        (self.folder / "probe.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([90, 120, 200, 128]) * 8)
+        subprocess.run([GLOAM, "scene", "lamp", "-o", "lamp.glb", "--quiet"], cwd=self.folder, env=self.environment,
+                       check=True, timeout=60)
+        for order in (["probe.hdr", "lamp.glb"], ["lamp.glb", "probe.hdr"]):
+            self.script([{"wait": "idle"}, *({"drop": name} for name in order), {"wait": "idle"}, {"stats": "both.json"}])
+            both = self.stats("both.json")
+            self.assertEqual(both["scene"], "lamp.glb", order)
+            self.assertIn("probe", both["environment"], order)
 
     def test_presets_that_are_none_are_said_in_our_words(self):
         broken = {"comma.json": '{"exposure": 1,\n "fov": }', "cut.json": '{"exposure": 0.5', "empty.json": "", "list.json": "[1, 2]",
@@ -342,6 +375,21 @@ class ViewerTest(unittest.TestCase):
         self.assertGreater(copied["frame_ms"], 0.0)
         self.assertEqual([p["name"] for p in copied["passes"]], [p["name"] for p in stats["passes"]])
         self.assertIn("times are on the clipboard", stats["messages"])
+
+    def test_frame_times_are_plotted(self):
+        """A line as wide as the panel, over its field."""
+        window = [BOX, "--size", "1100x900", "--scale", "0.1"]
+        self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "closed.json"}], *window)
+        x, y, _, _ = self.stats("closed.json")["controls"]["times"]
+        turn = [{"set": {"env_rotation": 10}}, {"wait": 3}, {"set": {"env_rotation": 20}}, {"wait": 3}]
+        self.script([{"wait": "idle"}, {"repeat": 4, "steps": turn}, {"click": [x + 30, y + 8]}, {"mouse": [x + 30, y - 40]},
+                     {"scroll": -100}, {"wait": 5}, {"stats": "open.json"}, {"window_screenshot": "open.png"}], *window)
+        x, y, width, height = (int(v) for v in self.stats("open.json")["controls"]["frame_plot"])
+        _, _, rows = png_size_and_rows(self.folder / "open.png")
+        columns = range(max(x, 740), 1090)  # of the panel
+        top = int(self.stats("open.json")["controls"]["copy_times"][1])
+        blue = [sum(rows[j][3 * i + 2] > rows[j][3 * i] + 40 for j in range(top - 420, top)) for i in columns]
+        self.assertGreater(sum(count > 0 for count in blue), 250)
 
     def test_scripts_do_not_wait_for_what_never_comes(self):
         (self.folder / "steps.json").write_text(json.dumps([
