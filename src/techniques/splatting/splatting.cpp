@@ -143,7 +143,7 @@ gpu::ImageRef recordFull(gpu::FrameGraph& graph, const frame::FrameInputs& input
         .read("vpls", vpls.chunk(i))
         .read("receiver_position", receivers.position)
         .read("receiver_normal", receivers.normal_depth)
-        .dispatchOver(light);
+        .dispatchOver((inputs.gbuffer.width + kEach - 1) / kEach, inputs.gbuffer.height);
   }
   return light;
 }
@@ -170,6 +170,10 @@ gpu::ImageRef recordCutoff(gpu::FrameGraph& graph, const frame::FrameInputs& inp
   return light;
 }
 
+Coverage coverage(const Settings& settings) {
+  return {.local_direct = true, .local_indirect = settings.integer("vpls") > 0};
+}
+
 }  // namespace
 
 const TechniqueInfo& info() {
@@ -177,7 +181,8 @@ const TechniqueInfo& info() {
       .name = "splatting",
       .summary = "light of lamps by way of one other surface: virtual point lights at many resolutions",
       .covers = {.local_direct = true, .local_indirect = true},
-      .options = options()};
+      .options = options(),
+      .covers_with = coverage};
   return info;
 }
 
