@@ -4,6 +4,8 @@
 // What techniques need before they can be shown: bakes, spheres and what those send, in the background and kept.
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "bake_run.h"
 #include "emission_run.h"
 #include "session.h"
@@ -38,9 +40,13 @@ void Session::prepare() {
   if (cli::showsSpheres(state.show) && !state.needs.spheres) startSpheres(SphereOptions{}.count, false);
 }
 
-/// What was moved stays moved where a bake has made more nodes, or put them in another order: by their names.
+/// What was moved stays moved where a bake has made more nodes: they stand behind those that were there; where they do not, by
+/// their names.
 void Session::carryMoves(const Scene& from, const Scene& to) {
-  if (to.nodes.size() == from.nodes.size()) return;
+  const auto same = [](const Node& a, const Node& b) { return a.name == b.name; };
+  if (to.nodes.size() >= from.nodes.size() &&
+      std::equal(from.nodes.begin(), from.nodes.end(), to.nodes.begin(), same))
+    return;
   choose(kNone);
   try {
     std::vector<cli::MoveText> texts;

@@ -250,6 +250,7 @@ cli::Json Session::stats(double ui_device_ms, int ui_objects) const {
   json["selected"] = selected_node_;
   json["scale"] = drawn_ && height_ > 0 ? double(drawn_->height) / height_ : 0.0;
   json["moves"] = state.moves.size();
+  json["nodes"] = state.scene ? state.scene->scene.nodes.size() : 0;
   json["waits"] = waitsFor(kLeft) || waitsFor(kRight);
   if (state.left.info != nullptr) json["settings"] = cli::settingsJson(*state.left.info, state.left.settings);
   if (reference_) {

@@ -120,10 +120,15 @@ bool isNear(const LightMark& mark, const ImVec2& at, float scale) {
 }
 
 /// In the light's colour, with a dark rim that stands out from bright walls; brighter under the mouse.
-void drawLightMarks(const Session& session, const Place& place, float scale) {
+void drawLightMarks(const Session& session, const Place& place, float scale,
+                    const std::optional<Pull>& pull) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  for (const LightMark& mark : lightMarks(session, place)) {
+  for (LightMark mark : lightMarks(session, place)) {
+    if (pull && mark.node == session.selectedNode()) {  // with the hand, not with the picture
+      const glm::vec3 p = project(session.camera.posed(), pull->place(), {place.size.x, place.size.y});
+      mark.at = {place.low.x + p.x, place.low.y + p.y};
+    }
     const bool lit = !ImGui::GetIO().WantCaptureMouse && isNear(mark, mouse, scale);
     const ImU32 color = lit ? kBright : ImGui::GetColorU32({mark.color.x, mark.color.y, mark.color.z, 1.0f});
     list.AddCircleFilled(mark.at, 4.0f * scale, color);
@@ -166,7 +171,7 @@ bool drawGizmo(Session& session, UiState& ui, const Place& place) {
   if (!selected && !ui.panel) return false;  // the picture alone
   ImGui::GetBackgroundDrawList()->PushClipRect(place.low,
                                                {place.low.x + place.size.x, place.low.y + place.size.y});
-  drawLightMarks(session, place, ui.scale);
+  drawLightMarks(session, place, ui.scale, ui.pull);
   const bool mine = selected && drawSelected(session, ui, place);
   ImGui::GetBackgroundDrawList()->PopClipRect();
   return mine;

@@ -46,7 +46,7 @@ void rightText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
-/// Of pictures of the newest one's kind, the oldest on the left; both ends of the scale are written beside it.
+/// Of pictures of the newest one's kind, the oldest on the left; the top of its scale is written over it.
 void framePlot(const Session& session, float scale) {
   const std::vector<float> values = session.history().frameMs();
   if (values.empty()) return;
@@ -59,8 +59,10 @@ void framePlot(const Session& session, float scale) {
   } else {  // of one there is no line
     ImGui::PlotHistogram("##frames", values.data(), 1, 0, nullptr, 0.0f, most * 1.1f, size);
   }
-  ImGui::GetWindowDrawList()->AddText({low.x + 6.0f * scale, low.y + 2.0f * scale},
-                                      ImGui::GetColorU32(ImGuiCol_TextDisabled), top.c_str());
+  const ImVec2 text = ImGui::CalcTextSize(top.c_str()), at(low.x + 6.0f * scale, low.y + 2.0f * scale);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + text.x, at.y + text.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  list.AddText(at, ImGui::GetColorU32(ImGuiCol_TextDisabled), top.c_str());
   dim(fmt::format("median {:.1f} ms, p95 {:.1f} ms, of {} of this size", session.history().medianMs(),
                   session.history().p95Ms(), session.history().counted()));
 }

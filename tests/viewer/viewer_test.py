@@ -2,6 +2,7 @@
 # gloam - real-time soft global illumination
 # SPDX-License-Identifier: MIT
 """gloam-view under Xvfb, with the validation layer on: real mouse and keys by xdotool, and scripts."""
+import base64
 import json
 import os
 import pathlib
@@ -219,6 +220,28 @@ class ViewerTest(unittest.TestCase):
         for layer in ["direct", "indirect", "normal", "depth", "albedo", "object"]:
             self.assertIn(layer, info.stdout)
         self.assertIn("saved picture.exr", self.stats("end.json")["messages"])
+
+    def test_what_was_moved_stays_moved_over_a_bake_that_makes_nodes(self):
+        """Copies of an instanced node become nodes of their own when they are baked."""
+        numbers = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0] + [0, 0, 1] * 4 + [0, 0, 0, 2, 0, 0]
+        data = struct.pack("<36f", *numbers[:12], *numbers[12:24], *numbers[24:], *[0] * 6) + struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+        vec = lambda at, count: {"bufferView": 0, "byteOffset": 4 * at, "componentType": 5126, "count": count, "type": "VEC3"}
+        scene = {
+            "asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"], "scene": 0, "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"name": "many", "mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 3}}}},
+                      {"name": "mover", "mesh": 0, "translation": [0, 2, 0]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}],
+            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+            "accessors": [{**vec(0, 4), "min": [0, 0, 0], "max": [1, 1, 0]}, vec(12, 4),
+                          {"bufferView": 0, "byteOffset": 144, "componentType": 5125, "count": 6, "type": "SCALAR"}, vec(24, 2)]}
+        (self.folder / "copies.gltf").write_text(json.dumps(scene))
+        self.script([{"wait": "idle"}, {"stats": "before.json"}, {"set": {"technique": "prt"}}, {"wait": "idle"}, {"stats": "after.json"}],
+                    "copies.gltf", *SMALL, "--scale", "0.2", "--move", "mover=0.5,0,0", "--technique", "irradiance")
+        before, after = self.stats("before.json"), self.stats("after.json")
+        self.assertEqual((before["technique"], before["moves"]), ("irradiance", 1), before["messages"])
+        self.assertEqual((after["technique"], after["moves"]), ("prt", 1), after["messages"])
+        self.assertGreater(after["nodes"], before["nodes"])
 
     def test_keys_overwrite_nothing(self):
         keys = [{"key": "f2"}, {"wait": 2}, {"key": "f5"}, {"wait": 2}]
