@@ -8,6 +8,7 @@
 
 #include <cstring>
 
+#include "frame/lanes.h"
 #include "frame/quad_lists.h"
 #include "math/sh_log_exp.h"
 #include "shaders/proxies_shaders.h"
@@ -102,6 +103,7 @@ Received recordReceivers(const Step& step, const Sums& sums) {
       .specialize("exponential", step.exponential)
       .specialize("normalise", step.normalise)
       .specialize("has_indirect", step.indirect != kIndirectOff)
+      .specialize("by_lanes", step.by_lanes)
       .read("receiver_position", step.level.position)
       .read("receiver_normal", step.level.normal_depth)
       .read("flats", step.flats)
@@ -168,6 +170,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .specialize("indirect_kind", step.indirect)
       .specialize("exponential", step.exponential)
       .specialize("normalise", step.normalise)
+      .specialize("by_lanes", step.by_lanes)
       .read("frame_view", step.inputs.view)
       .read("depth", gbuffer.depth)
       .read("normals", gbuffer.normals)
@@ -248,7 +251,8 @@ frame::Lighting Proxies::record(gpu::FrameGraph& graph, const frame::FrameInputs
                   .indirect = indirectKind(settings.choice("indirect")),
                   .exponential = exponentialKind(settings.choice("exponential")),
                   .normalise = settings.flag("normalise"),
-                  .whole_field = upsample == "field"};
+                  .whole_field = upsample == "field",
+                  .by_lanes = frame::readsByLanes(graph.device())};
   const bool splat = settings.choice("accumulate") == "splat";
   Received received = recordReceivers(step, splat ? accumulateBySplats(step) : accumulateByTiles(step));
   int divisor = step.level.divisor;

@@ -70,6 +70,7 @@ Sums accumulateByTiles(const Step& step) {
   step.graph.compute("proxies.accumulate", proxies_accumulate_spv)
       .specialize("indirect_kind", step.indirect)
       .specialize("exponential", step.exponential)
+      .specialize("by_lanes", step.by_lanes)
       .read("receiver_position", step.level.position)
       .read("receiver_normal", step.level.normal_depth)
       .read("proxies", step.proxies)

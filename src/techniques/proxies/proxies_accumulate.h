@@ -23,6 +23,7 @@ struct Step {
   AccumulateParams params;
   int indirect, exponential;
   bool normalise, whole_field;
+  bool by_lanes;  ///< frame/lanes.glsl
 
   gpu::ImageRef image(const char* name, VkFormat format, int layers = 1) const {
     return graph.create(name,

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // What ground and walls leave visible, as rectangles (frame/patch.glsl). They stand before distant light alone: added to logs after light
-// of proxies was normalised. Includers declare the buffers flats and log_table.
+// of proxies was normalised. Includers declare the constant by_lanes, the buffer flats of words and the
+// buffer log_table, and have all lanes run.
 #ifndef GLOAM_PROXIES_FLATS_GLSL
 #define GLOAM_PROXIES_FLATS_GLSL
+#include "frame/lanes.glsl"
 #include "frame/patch.glsl"
 #include "math/sh.glsl"
 #include "math/sh_log_blocker.glsl"
@@ -13,7 +15,9 @@
 void addFlats(uint count, vec3 position, vec3 normal, inout vec4 log0, inout vec4 log1, inout vec4 log2,
               inout vec4 log3) {
   for (uint i = 0u; i < count; ++i) {
-    PatchCone cone = patchCone(flats.at[i], position, normal);
+    PatchRow flat_row;
+    GLOAM_READ_PATCH(flat_row, flats, i)
+    PatchCone cone = patchCone(flat_row, position, normal);
     SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle);
     float at = shLogBlockerCoordinate(seen.sin_half_angle) * float(kLogEntries - 1);
     int below = min(int(at), kLogEntries - 2);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-1, PX-3 to PX-5: what one proxy adds at a receiver. Includers declare the constants exponential and indirect_kind, the
-// buffers proxies, log_table, alone_table, operator_table and the uniform block light, and push push.params. Splats compute one
+// buffers log_table, alone_table, operator_table and the uniform block light, and push push.params. Splats compute one
 // half: with GLOAM_PROXIES_ONLY_SHADOW or GLOAM_PROXIES_ONLY_INDIRECT defined, what the other needs is not declared. All is
 // written out: the software driver keeps indexed arrays in memory.
 #ifndef GLOAM_PROXIES_GATHER_GLSL
@@ -26,14 +26,15 @@ float fade(float from, float to, float x) {
 }
 
 /// Whether a receiver lies in a proxy's sphere of influence; without it the proxy adds nothing.
-bool reaches(vec3 position, uint i) {
-  vec3 d = proxies.at[i].center - position;
-  float least = push.params.least_sine, radius = proxies.at[i].radius;
-  return least * least * dot(d, d) < radius * radius;
+bool reaches(vec3 position, ProxyRow proxy) {
+  vec3 d = proxy.center - position;
+  float least = push.params.least_sine;
+  return least * least * dot(d, d) < proxy.radius * proxy.radius;
 }
 
-void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
-  SeenSphere seen = seenSphere(position, normal, proxies.at[i].center, proxies.at[i].radius);
+/// leaving: light.row.leaving, read once by each receiver.
+void addProxy(inout Gathered sum, vec3 position, vec3 normal, ProxyRow proxy, vec3 leaving[9]) {
+  SeenSphere seen = seenSphere(position, normal, proxy.center, proxy.radius);
   float a = seen.sin_half_angle;
   float coordinate = shLogBlockerCoordinate(a);
   float at = coordinate * float(kLogEntries - 1);
@@ -57,10 +58,10 @@ void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
   if (indirect_kind == kIndirectExact) {
     arriving = exactOnPlane(coordinate, solid_angle, seen.direction, normal, along);
   } else {
-    vec3 b0 = light.row.leaving[0] * y[0];
-    vec3 b1 = light.row.leaving[1] * y[1] + light.row.leaving[2] * y[2] + light.row.leaving[3] * y[3];
-    vec3 b2 = light.row.leaving[4] * y[4] + light.row.leaving[5] * y[5] + light.row.leaving[6] * y[6] +
-              light.row.leaving[7] * y[7] + light.row.leaving[8] * y[8];
+    vec3 b0 = leaving[0] * y[0];
+    vec3 b1 = leaving[1] * y[1] + leaving[2] * y[2] + leaving[3] * y[3];
+    vec3 b2 = leaving[4] * y[4] + leaving[5] * y[5] + leaving[6] * y[6] +
+              leaving[7] * y[7] + leaving[8] * y[8];
     bool point = indirect_kind == kIndirectPoint;
     arriving = discRadiance(b0, b1, b2, point ? -1.0 : averaged1(a), point ? 1.0 : averaged2(a)) *
                discOnPlane(a, cosine, along);
@@ -68,7 +69,7 @@ void addProxy(inout Gathered sum, vec3 position, vec3 normal, uint i) {
   arriving *= fade(push.params.indirect_from, push.params.indirect_to, coordinate);
   int alone = exponential * kLogEntries + below;
   float blocked = mix(alone_table.at[alone], alone_table.at[alone + 1], at - float(below)) * faded;  // as O_p has it
-  sum.sent += vec4(arriving * proxies.at[i].albedo, blocked);
+  sum.sent += vec4(arriving * proxy.albedo, blocked);
 #endif
 }
 

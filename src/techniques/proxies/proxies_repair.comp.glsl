@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
 #include "frame/view.glsl"
@@ -14,15 +15,16 @@
 layout(constant_id = 0) const int indirect_kind = 2;
 layout(constant_id = 1) const int exponential = 3;
 layout(constant_id = 2) const bool normalise = true;
+layout(constant_id = 3) const bool by_lanes = false;
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D normals;
 layout(scalar, set = 0, binding = 3) readonly buffer Repairs { QuadList list; uint at[]; } repairs;
-layout(scalar, set = 0, binding = 4) readonly buffer Proxies { ProxyRow at[]; } proxies;
+layout(scalar, set = 0, binding = 4) readonly buffer Proxies { uint at[]; } proxies;  // of ProxyRows
 layout(scalar, set = 0, binding = 11) readonly buffer Bits { uint at[]; } bits;
-layout(scalar, set = 0, binding = 12) readonly buffer Flats { PatchRow at[]; } flats;
+layout(scalar, set = 0, binding = 12) readonly buffer Flats { uint at[]; } flats;      // of PatchRows
 layout(scalar, set = 0, binding = 5) readonly buffer LogTable { vec4 at[]; } log_table;
 layout(scalar, set = 0, binding = 6) readonly buffer OperatorTable { vec4 at[]; } operator_table;
 layout(scalar, set = 0, binding = 10) readonly buffer AloneTable { float at[]; } alone_table;
@@ -38,8 +40,7 @@ layout(scalar, push_constant) uniform Push { AccumulateParams params; uint colum
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  if (i >= min(repairs.list.count_and_one - 1u, push.capacity)) return;
-  uint packed = repairs.at[i];
+  uint packed = i < min(repairs.list.count_and_one - 1u, push.capacity) ? repairs.at[i] : 0u;  // all lanes run
   ivec2 first = firstPixel(packed, push.divisor);
   Middle middle = middleOf(packed, first);
   uint tile = tileOf(first, push.columns);

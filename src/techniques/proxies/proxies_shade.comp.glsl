@@ -6,11 +6,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "techniques/proxies/proxies_shared.h"
 
 layout(constant_id = 0) const int exponential = 3;
 layout(constant_id = 1) const bool normalise = true;
 layout(constant_id = 2) const bool has_indirect = true;
+layout(constant_id = 3) const bool by_lanes = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D receiver_normal;  // w: 0 is background
@@ -18,7 +20,7 @@ layout(set = 0, binding = 1) uniform sampler2DArray log_visibility;
 layout(set = 0, binding = 2) uniform sampler2D indirect_sum;
 layout(scalar, set = 0, binding = 3) uniform LightBlock { ProxyLight row; } light;
 layout(set = 0, binding = 11) uniform sampler2D receiver_position;
-layout(scalar, set = 0, binding = 12) readonly buffer Flats { PatchRow at[]; } flats;
+layout(scalar, set = 0, binding = 12) readonly buffer Flats { uint at[]; } flats;  // of PatchRows
 layout(scalar, set = 0, binding = 13) readonly buffer LogTable { vec4 at[]; } log_table;
 layout(set = 0, binding = 4) uniform writeonly image2DArray field;
 layout(set = 0, binding = 10) uniform writeonly image2DArray planes;
@@ -33,8 +35,7 @@ layout(scalar, push_constant) uniform Push { ShadeParams params; } push;
 #include "techniques/proxies/proxies_shade.glsl"
 
 void main() {
-  ivec2 place = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(place, imageSize(direct)))) return;
+  ivec2 here = ivec2(gl_GlobalInvocationID.xy), place = min(here, imageSize(direct) - 1);  // all lanes run
   vec4 normal = texelFetch(receiver_normal, place, 0);
   vec4 log0 = texelFetch(log_visibility, ivec3(place, 0), 0), log1 = texelFetch(log_visibility, ivec3(place, 1), 0);
   vec4 log2 = texelFetch(log_visibility, ivec3(place, 2), 0), log3 = texelFetch(log_visibility, ivec3(place, 3), 0);
@@ -47,6 +48,7 @@ void main() {
     addFlats(push.params.flats, texelFetch(receiver_position, place, 0).xyz, normal.xyz, log0, log1, log2, log3);
     expOfLog(exponential, log0, log1, log2, log3, o);
   }
+  if (here != place) return;
   imageStore(field, ivec3(place, 0), vec4(o[0], o[1], o[2], o[3]));
   imageStore(field, ivec3(place, 1), vec4(o[4], o[5], o[6], o[7]));
   imageStore(field, ivec3(place, 2), vec4(o[8], o[9], o[10], o[11]));

@@ -27,8 +27,9 @@ layout(location = 0) out vec4 sent;
 void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(receiver_position, place, 0);
-  if (position.w <= 0.0 || !reaches(position.xyz, proxy_index)) discard;
+  ProxyRow proxy = proxies.at[proxy_index];
+  if (position.w <= 0.0 || !reaches(position.xyz, proxy)) discard;
   Gathered sum = Gathered(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-  addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy_index);
+  addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy, light.row.leaving);
   sent = sum.sent;
 }

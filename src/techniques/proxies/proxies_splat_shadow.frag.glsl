@@ -25,8 +25,10 @@ layout(location = 3) out vec4 log3;
 void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(receiver_position, place, 0);
-  if (position.w <= 0.0 || !reaches(position.xyz, proxy_index)) discard;
+  ProxyRow proxy = proxies.at[proxy_index];
+  if (position.w <= 0.0 || !reaches(position.xyz, proxy)) discard;
+  vec3 nothing[9];  // no light is asked for
   Gathered sum = Gathered(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-  addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy_index);
+  addProxy(sum, position.xyz, texelFetch(receiver_normal, place, 0).xyz, proxy, nothing);
   log0 = sum.log0, log1 = sum.log1, log2 = sum.log2, log3 = sum.log3;
 }

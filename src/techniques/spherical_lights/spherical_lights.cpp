@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "frame/field_shade.h"
+#include "frame/lanes.h"
 #include "frame/light_peak.h"
 #include "shaders/spherical_lights_shaders.h"
 #include "techniques/sphere_options.h"
@@ -235,7 +236,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .lamps_are_balls = balls,
       .indirect = settings.flag("indirect") && count + patches > 0,
       .at_vertices = settings.choice("receivers") == "vertices",
-      .by_lanes = graph.device().info().software && graph.device().limits().subgroup_size >= 8,
+      .by_lanes = frame::readsByLanes(graph.device()),
       .coarse_limit = settings.number("hierarchy"),
       .light = graph.uploadOne("spherical_lights.light", lightRows(inputs.environment.sh(), settings)),
       .spheres = uploadRows(graph, "spherical_lights.spheres", rows.spheres),

@@ -6,7 +6,6 @@
 #ifndef GLOAM_SPHERICAL_LIGHTS_LANES_GLSL
 #define GLOAM_SPHERICAL_LIGHTS_LANES_GLSL
 #include "frame/lanes.glsl"
-#include "frame/patch_shared.h"
 
 Ball ballAt(uint i) {
   Eight row;
@@ -14,13 +13,16 @@ Ball ballAt(uint i) {
   return Ball(row.a.xyz, row.a.w, row.b.x, floatBitsToUint(row.b.y), floatBitsToUint(row.b.z));
 }
 
-#define GLOAM_PATCH(buffer, j)                                                                               \
-  Eight p, q;                                                                                                \
-  GLOAM_READ_EIGHT(p, buffer, 15u * (j))                                                                     \
-  GLOAM_READ_EIGHT(q, buffer, 15u * (j) + 7u)                                                                \
-  return PatchRow(p.a.xyz, vec3(p.a.w, p.b.xy), vec3(p.b.zw, q.a.y), vec3(q.a.zw, q.b.x), q.b.yzw);
-PatchRow blockingPatch(uint j) { GLOAM_PATCH(blocking_patches, j) }
-PatchRow sendingPatch(uint j) { GLOAM_PATCH(sending_patches, j) }
+PatchRow blockingPatch(uint j) {
+  PatchRow row;
+  GLOAM_READ_PATCH(row, blocking_patches, j)
+  return row;
+}
+PatchRow sendingPatch(uint j) {
+  PatchRow row;
+  GLOAM_READ_PATCH(row, sending_patches, j)
+  return row;
+}
 vec3 patchRadiance(uint j) {
   Eight p;
   GLOAM_READ_EIGHT(p, patch_radiance, 3u * j)
