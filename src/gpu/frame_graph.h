@@ -85,7 +85,7 @@ class FrameGraph {
   BufferRef import(const std::string& name, const Buffer& buffer);
   ImageHistory history(const std::string& name, const ImageDesc& desc);
   BufferHistory history(const std::string& name, const BufferDesc& desc);
-  /// Stays while frames ask for it, of two sizes where they are small. An empty key never holds; nothing does before setKeeps().
+  /// Stays while frames ask for it, of a few sizes where they are small. An empty key never holds; nothing does before setKeeps().
   KeptImage keep(const std::string& name, const ImageDesc& desc, const std::string& key);
   /// Whether kept images may hold in this frame. Off at first: then all of a frame is drawn.
   void setKeeps(bool keeps);

@@ -204,7 +204,7 @@ TEST(FrameGraph, KeptImagesHoldAsLongAsTheirKeyStays) {
   EXPECT_EQ(drawKept(graph, "b", 4.0f), 4.0f);
   EXPECT_EQ(drawKept(graph, "", 5.0f), 5.0f);
   EXPECT_EQ(drawKept(graph, "", 6.0f), 6.0f);
-  // Two small sizes stand side by side.
+  // Small sizes stand side by side.
   ImageDesc small = kFloats;
   small.width = 5;
   EXPECT_EQ(drawKept(graph, "c", 7.0f), 7.0f);

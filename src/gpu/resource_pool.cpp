@@ -9,7 +9,9 @@ namespace gloam::gpu {
 namespace {
 
 constexpr std::uint64_t kFramesToKeep = 16;
-constexpr std::uint64_t kSpareBytes = 16u << 20;  // of an image of another size than the one asked for
+// Of an image, sizes besides the one that is asked for, and bytes of such a one. A viewer's pictures have two or three sizes.
+constexpr std::size_t kSpareSizes = 3;
+constexpr std::uint64_t kSpareBytes = 8u << 20;
 
 bool sameDesc(const Image& image, ImageDesc desc) {
   if (desc.mips == kAllMips) desc.mips = image.desc().mips;
@@ -122,14 +124,14 @@ BufferHistory ResourcePool::history(const std::string& name, const BufferDesc& d
   return {found.resources[1 - found.current], found.resources[found.current]};
 }
 
-/// The entry of that description. Another one stays beside it where it is small, the newest of them.
+/// The entry of that description. Others stay beside it where they are small, the newest of them.
 ResourcePool::Kept& ResourcePool::keptOf(const std::string& name, const ImageDesc& desc) {
   std::vector<Kept>& sizes = kept_[name];
   const auto found =
       std::ranges::find_if(sizes, [&](const Kept& kept) { return sameDesc(kept.image, desc); });
   if (found != sizes.end()) return *found;
   std::erase_if(sizes, [](const Kept& kept) { return kept.image.memoryBytes() > kSpareBytes; });
-  if (sizes.size() > 1) sizes.erase(std::ranges::min_element(sizes, {}, &Kept::used_in_frame));
+  if (sizes.size() > kSpareSizes) sizes.erase(std::ranges::min_element(sizes, {}, &Kept::used_in_frame));
   return sizes.emplace_back(Kept{Image(device_, name, desc), "", 0, 0});
 }
 

@@ -75,7 +75,7 @@ class ResourcePool {
   std::set<std::string> names_;  ///< taken in this frame
   std::map<std::string, Entry<Image>> images_;
   std::map<std::string, Entry<Buffer>> buffers_;
-  std::map<std::string, std::vector<Kept>> kept_;  ///< two sizes at most
+  std::map<std::string, std::vector<Kept>> kept_;  ///< a few sizes of each
   std::map<std::string, Pair<Image>> image_histories_;
   std::map<std::string, Pair<Buffer>> buffer_histories_;
   std::map<std::string, ImageRef> image_names_;  ///< what find() gives
