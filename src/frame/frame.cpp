@@ -38,7 +38,8 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
                                     options.shadow_map_size, kShadowBudgetBytes, kMaxShadowMaps, warnings);
 
   // What of the frames before still stands.
-  const std::string gbuffer_key = gbufferKey(scene, view), shadow_key = shadowKey(scene, plan);
+  const std::string scene_key = sceneKey(scene, posed), gbuffer_key = gbufferKey(scene_key, view),
+                    shadow_key = shadowKey(scene_key, plan);
   graph.setKeeps(!options.repeats || gbuffer_key != memory.gbuffer_key || shadow_key != memory.shadow_key);
   memory.gbuffer_key = gbuffer_key, memory.shadow_key = shadow_key;
 

@@ -11,9 +11,12 @@
 
 namespace gloam::frame {
 
-/// Of the scene as it stands, the camera and the size. Empty where things are deformed: their vertices come anew every frame.
-std::string gbufferKey(const GpuScene& scene, const FrameView& view);
-/// Of the scene as it stands and the lamps' views. Empty as above.
-std::string shadowKey(const GpuScene& scene, const LightPlan& plan);
+/// Of the scene as it stands: where its instances are, and the vertices of those that are deformed. `posed` is what scene.pose()
+/// was given last.
+std::string sceneKey(const GpuScene& scene, const PosedScene& posed);
+/// Of the scene, the camera and the size.
+std::string gbufferKey(const std::string& scene_key, const FrameView& view);
+/// Of the scene and the lamps' views.
+std::string shadowKey(const std::string& scene_key, const LightPlan& plan);
 
 }  // namespace gloam::frame
