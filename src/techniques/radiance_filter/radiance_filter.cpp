@@ -45,12 +45,15 @@ void RadianceFilter::remarkSharpMaterials(const frame::FrameInputs& inputs, bool
 
 frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::FrameInputs& inputs,
                                        const Settings& settings) {
-  const Plan plan = planOf(settings, inputs.gbuffer.width, inputs.gbuffer.height, inputs.warnings);
+  Plan plan = planOf(settings, inputs.gbuffer.width, inputs.gbuffer.height, inputs.warnings);
+  plan.views = plan.views || inputs.show.starts_with("radiance_filter.");
   frame::Lighting nothing{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
   const vpls::Walks walks = walker_.record(graph, inputs, plan.walks, visibility_.world());
   if (walks.set_count == 0) {
     inputs.warnings.emplace_back(
-        "no light: no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect)");
+        "no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect): lamps light, "
+        "by "
+        "their maps, and nothing else does");
     return nothing;
   }
   if (plan.keepsField()) remarkSharpMaterials(inputs, plan.beams);

@@ -44,11 +44,22 @@ struct Axis {
   }
 };
 
+/// True: the host filters, between two passes.
+bool isOnHost(const gpu::Device& device, const Plan& plan, const Light& light) {
+  return light.points && device.info().software && plan.means != visibility::Means::kDevice &&
+         plan.mode != Mode::kIrradianceNormals;
+}
+
 gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                              gpu::ImageRef values) {
+                              const Light& light) {
+  const gpu::ImageRef values = light.values;
   const auto likeValues = [&](const char* name) { return createValues(graph, plan, name, values.format()); };
-  const gpu::ImageRef halfway = likeValues("radiance_filter.halfway"),
-                      filtered = plan.views ? likeValues("radiance_filter.filtered") : values;
+  const gpu::ImageRef filtered = plan.views ? likeValues("radiance_filter.filtered") : values;
+  if (isOnHost(graph.device(), plan, light)) {
+    recordFilterOnHost(graph, inputs, plan, light, filtered);
+    return filtered;
+  }
+  const gpu::ImageRef halfway = likeValues("radiance_filter.halfway");
   for (int axis = 0; axis < 2; ++axis) {
     const Axis way{axis, plan.taps[axis], runOf(graph.device(), plan.taps[axis]), plan};
     const auto masks = graph.create(fmt::format("radiance_filter.masks_{}", axis == 0 ? "across" : "down"),
@@ -70,7 +81,7 @@ gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& 
 gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            const Light& light) {
   if (plan.filter == Filter::kNone || plan.taps == glm::ivec2(1)) return light.values;
-  if (plan.filter == Filter::kTwoPass) return recordTwoPasses(graph, inputs, plan, light.values);
+  if (plan.filter == Filter::kTwoPass) return recordTwoPasses(graph, inputs, plan, light);
   const gpu::ImageRef filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
   readSurface(graph.compute("radiance_filter.once", radiance_filter_once_spv), inputs, plan)
       .read("before", light.values)

@@ -23,22 +23,6 @@ struct Work {
   gpu::BufferRef exposure;
 };
 
-Interleaving interleavingOf(const Plan& plan, const frame::GpuScene& scene, std::uint32_t only_set) {
-  const bool every = only_set == kEverySet;
-  const std::uint32_t across = every ? std::uint32_t(plan.sets.x) : 1,
-                      down = every ? std::uint32_t(plan.sets.y) : 1;
-  const auto width = std::uint32_t(plan.width), height = std::uint32_t(plan.height);
-  return {width,
-          height,
-          across,
-          down,
-          (width + across - 1) / across,
-          (height + down - 1) / down,
-          only_set,
-          1e-5f * glm::distance(scene.boundsMin(), scene.boundsMax()),
-          plan.bound};
-}
-
 std::uint32_t pointsIn(const Interleaving& in) {
   return in.tile_width * in.tile_height * in.sets_x * in.sets_y;
 }
@@ -102,6 +86,22 @@ void recordSet(const Work& work, visibility::Visibility& visibility, std::uint32
 
 }  // namespace
 
+Interleaving interleavingOf(const Plan& plan, const frame::GpuScene& scene, std::uint32_t only_set) {
+  const bool every = only_set == kEverySet;
+  const std::uint32_t across = every ? std::uint32_t(plan.sets.x) : 1,
+                      down = every ? std::uint32_t(plan.sets.y) : 1;
+  const auto width = std::uint32_t(plan.width), height = std::uint32_t(plan.height);
+  return {width,
+          height,
+          across,
+          down,
+          (width + across - 1) / across,
+          (height + down - 1) / down,
+          only_set,
+          1e-5f * glm::distance(scene.boundsMin(), scene.boundsMax()),
+          plan.bound};
+}
+
 gpu::ImageRef createValues(gpu::FrameGraph& graph, const Plan& plan, const std::string& name,
                            VkFormat format) {
   return graph.create(name, gpu::ImageDesc{.format = format,
@@ -137,7 +137,7 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
                 : s + 1 == walks.set_count ? kLast
                                            : kFurther);
   }
-  return {work.values, work.exposure};
+  return {work.values, work.exposure, plan.brute() ? gpu::BufferRef() : work.points};
 }
 
 }  // namespace gloam::radiance_filter

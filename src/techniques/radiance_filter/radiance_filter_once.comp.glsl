@@ -34,7 +34,6 @@ void main() {
   if (any(greaterThanEqual(pixel, size))) return;
   int first = int(gl_GlobalInvocationID.z) * layers;
   Surface middle = surfaceAt(pixel, size);
-  vec3 normal = geometricNormal(texelFetch(normals, pixel, 0).xy);
   float tolerance = toleranceAt(middle.position);
   vec4 sum[kFieldLayers];
   for (int w = 0; w < kFieldLayers; ++w) sum[w] = vec4(0.0);
@@ -43,7 +42,7 @@ void main() {
     bool found = false;
     for (int k = 0; k < 4; ++k) {
       ivec2 tap = pixel + ivec2(x[k & 1], y[k >> 1]);
-      bool same = isSameSurface(middle, normal, tolerance, surfaceAt(tap, size));
+      bool same = isSameSurface(middle, tolerance, surfaceAt(tap, size));
       taken = same && !found ? tap : taken;
       found = found || same;
     }

@@ -93,12 +93,14 @@ const std::vector<Option>& options() {
       {.name = "visibility",
        .default_value = std::string("auto"),
        .choices = {"auto", "host", "device"},
-       .help = "who traces rays: Embree between two passes, or a compute pass; auto: the host for software "
-               "drivers"},
+       .help = "who traces rays and averages: the host between two passes, rays by Embree; or compute "
+               "passes; auto: "
+               "the host for software drivers"},
       {.name = "views",
        .default_value = false,
-       .help = "keeps images to look at (--show): radiance_filter.set, raw_0 … raw_2, bands_0 … bands_2, "
-               "weights"}};
+       .help =
+           "keeps images to look at, not only those that --show names: radiance_filter.set, raw_0 … raw_2, "
+           "bands_0 … bands_2, weights"}};
   return options;
 }
 

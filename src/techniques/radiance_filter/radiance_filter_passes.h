@@ -48,11 +48,18 @@ gpu::ImageRef createValues(gpu::FrameGraph& graph, const Plan& plan, const std::
 struct Light {
   gpu::ImageRef values;     ///< layers of all parts (radiance_filter_shared.h), times the exposure
   gpu::BufferRef exposure;  ///< one float
+  gpu::BufferRef points;    ///< SightPoint, by sets; none: the filter runs on the device
 };
 
 /// RF-2, RF-3: "radiance_filter.points", ".visibility", ".exposure", ".gather"; in a brute mode once a set.
 Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                    const vpls::Walks& walks, visibility::Visibility& visibility);
+
+/// The two passes of RF-4 on the host: "radiance_filter.filter", into `filtered`.
+void recordFilterOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                        const Light& light, gpu::ImageRef filtered);
+/// Which point is which pixel (RF-2); `only_set` or kEverySet.
+Interleaving interleavingOf(const Plan& plan, const frame::GpuScene& scene, std::uint32_t only_set);
 
 /// RF-4: "radiance_filter.weights" and "radiance_filter.filter", or ".once". Values as before, where the weights say how much of
 /// the window was taken.

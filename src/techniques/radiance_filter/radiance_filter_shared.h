@@ -14,6 +14,10 @@ GLOAM_SHARED_CONST int kLobeLayers = 2;
 /// by less than 7 % at the peak, and ring.
 GLOAM_SHARED_CONST float kSharpestLobe = 20.0f;
 
+/// Cosine between geometric normals beyond which pixels are not averaged: what arrives ends at the plane of a surface, and beyond a
+/// crease that is another plane. Shading normals are not looked at.
+GLOAM_SHARED_CONST float kCrease = 0.5f;
+
 /// Taps a side of the filter, at most. Up to half as many find another pixel of the same set where one is not of the surface:
 /// bits of a word.
 GLOAM_SHARED_CONST int kMostTaps = 32;

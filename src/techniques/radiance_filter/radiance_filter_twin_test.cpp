@@ -41,6 +41,7 @@ struct Filtered {
   bool isSame(glm::ivec2 a, glm::ivec2 b) const {
     if (b.x < 0 || b.y < 0 || b.x >= kWidth || b.y >= kHeight) return false;
     if (ids[at(a)].x == 0 || ids[at(a)].x != ids[at(b)].x) return false;
+    if (glm::dot(unpacked(normals[at(a)].y), unpacked(normals[at(b)].y)) < kCrease) return false;
     const float along = glm::dot(position(a) - view.eye, view.forward);
     const float most =
         plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)) * glm::length(view.step_x) * along;
@@ -70,7 +71,7 @@ Filtered filter(const Scene& scene, const char* kind, const std::function<float(
              [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                result.plan = planOf(settings, kWidth, kHeight, inputs.warnings);
                inputs.receivers.at(1);
-               recordFilter(graph, inputs, result.plan, {.values = values, .exposure = {}});
+               recordFilter(graph, inputs, result.plan, {.values = values, .exposure = {}, .points = {}});
                return frame::Lighting{};
              });
   result.ids = frame.ids();
@@ -162,6 +163,40 @@ TEST(RadianceFilterTwin, ConstantStaysAndBackgroundStaysEmpty) {
   }
 }
 
+// The filter's two passes by the host and by the device, of odd sizes, windows with and without replaced taps.
+TEST(RadianceFilterTwin, HostFiltersAsTheDeviceDoes) {
+  if (!gpu::testDevice().info().software) GTEST_SKIP() << "the host filters for software drivers alone";
+  const Scene scene = loadScene("builtin:lamp?detail=0.3");
+  const PosedScene posed = pose(scene, 0.0f);
+  for (const auto& [sets, window, mode] :
+       {std::tuple("4", "1", "radiance"), std::tuple("5", "1", "irradiance"),
+        std::tuple("8", "4", "radiance")}) {
+    std::vector<float> filtered[2];
+    for (const char* means : {"host", "device"}) {
+      frame::TestFrame frame(scene);
+      RadianceFilter technique(gpu::testDevice());
+      Settings settings(info().options);
+      for (const auto& [name, text] :
+           {std::pair("sets", sets), std::pair("window", window), std::pair("mode", mode),
+            std::pair("visibility", means), std::pair("direct", "3"), std::pair("indirect", "4")})
+        settings.set(name, text);
+      frame.draw(posed, posed.cameras.at(0), {.width = kWidth, .height = kHeight},
+                 [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                   return technique.record(graph, inputs, settings);
+                 });
+      filtered[means[0] == 'd'] = frame.floats("radiance_filter.irradiance_indirect");
+    }
+    double difference = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < filtered[0].size(); ++i) {
+      if (i % 4 == 3) continue;
+      difference += std::pow(double(filtered[0][i]) - double(filtered[1][i]), 2.0);
+      squares += std::pow(double(filtered[1][i]), 2.0);
+    }
+    EXPECT_GT(squares, 0.1);
+    EXPECT_LT(std::sqrt(difference / squares), 2e-3) << sets;  // pairs at the very tolerance
+  }
+}
+
 // RF-3: the field of some pixels in doubles, from the rows and the answers of the rays; then RF-5 from what the filter left.
 TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
   const Scene scene = loadScene("builtin:cornell?detail=0.3");
@@ -206,7 +241,8 @@ TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
         const glm::vec3 between = row.end.position - point.position;
         const float squared = glm::dot(between, between);
         way = between / std::sqrt(squared);
-        light *= std::max(0.0f, -glm::dot(way, row.end.normal)) / std::max(squared, settings.number("bound") * row.bound);
+        light *= std::max(0.0f, -glm::dot(way, row.end.normal)) /
+                 std::max(squared, settings.number("bound") * row.bound);
       }
       const sh::Sh basis = sh::evaluate(3, way);
       for (int i = 0; i < 9; ++i) sum[i] += light * basis[i];

@@ -32,11 +32,10 @@ void main() {
     ivec2 pixel = first + i * step;                                                        \
     if (all(lessThan(pixel, size))) {                                                      \
       Surface middle = near[i + reachBefore(taps)];                                        \
-      vec3 normal = geometricNormal(texelFetch(normals, pixel, 0).xy);                     \
       float tolerance = toleranceAt(middle.position);                                      \
       uint same = 0u;                                                                      \
       for (int j = 0; j < reach(taps); ++j)                                                \
-        same |= isSameSurface(middle, normal, tolerance, near[i + j]) ? 1u << j : 0u;      \
+        same |= isSameSurface(middle, tolerance, near[i + j]) ? 1u << j : 0u;      \
       masks.at[pixel.y * size.x + pixel.x] = chosenTaps(same, taps);                       \
     }                                                                                      \
   }

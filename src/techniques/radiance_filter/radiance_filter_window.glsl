@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Which pixels a pixel is averaged with (RF-4): of its object, near its tangent plane. Includers declare frame_view, depth, ids,
+// Which pixels a pixel is averaged with (RF-4): of its object, near its tangent plane, not beyond a crease. Includers declare frame_view, depth, ids,
 // normals and push.limits.
 #ifndef GLOAM_RADIANCE_FILTER_WINDOW_GLSL
 #define GLOAM_RADIANCE_FILTER_WINDOW_GLSL
@@ -15,6 +15,7 @@ layout(constant_id = 0) const bool tests_normals = false;
 struct Surface {
   vec3 position;
   uint object;   // 0: none
+  vec3 normal;   // geometric
   vec3 shading;  // where normals are tested
 };
 
@@ -22,10 +23,12 @@ struct Surface {
 Surface surfaceAt(ivec2 pixel, ivec2 size) {
   bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
   pixel = clamp(pixel, ivec2(0), size - 1);
-  Surface surface = Surface(vec3(0.0), inside ? texelFetch(ids, pixel, 0).x : 0u, vec3(0.0));
+  Surface surface = Surface(vec3(0.0), inside ? texelFetch(ids, pixel, 0).x : 0u, vec3(0.0), vec3(0.0));
+  uvec2 packed_ = texelFetch(normals, pixel, 0).xy;
+  surface.normal = geometricNormal(packed_);
   Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
   surface.position = ray.origin + ray.direction * eyeDepth(frame_view.view, max(texelFetch(depth, pixel, 0).x, 1e-30));
-  if (tests_normals) surface.shading = shadingNormal(texelFetch(normals, pixel, 0).xy);
+  if (tests_normals) surface.shading = shadingNormal(packed_);
   return surface;
 }
 
@@ -36,8 +39,9 @@ float toleranceAt(vec3 position) {
   return push.limits.tolerance * length(view.step_x) * along;
 }
 
-bool isSameSurface(Surface middle, vec3 normal, float tolerance, Surface other) {
-  return other.object != 0u && other.object == middle.object && abs(dot(normal, other.position - middle.position)) <= tolerance &&
+bool isSameSurface(Surface middle, float tolerance, Surface other) {
+  return other.object != 0u && other.object == middle.object && dot(middle.normal, other.normal) >= kCrease &&
+         abs(dot(middle.normal, other.position - middle.position)) <= tolerance &&
          (!tests_normals || dot(middle.shading, other.shading) >= push.limits.normal_cosine);
 }
 
