@@ -10,6 +10,7 @@
 #include "bench_stage.h"
 #include "bench_suites.h"
 #include "settings_file.h"
+#include "spheres_run.h"
 #include "verb.h"
 
 namespace gloam::cli {
@@ -93,6 +94,8 @@ int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
     throw Error(choice.paper ? "--paper" : "--scaling", fmt::format("'{}' is no technique", choice.subject));
   if (choice.scaling && !app.get_option("SCENE")->empty())
     throw Error("--scaling", fmt::format("measures a scene of its own; not {}", choice.scene.name));
+  if (!choice.spheres.empty() && (choice.scaling || !choice.figures.empty()))
+    throw Error("--spheres", "are a given scene's; --scaling and --figures measure scenes of their own");
   if (!choice.output.empty() && !choice.paper && !choice.scaling)
     throw Error("--output", "is a plot, which --paper and --scaling draw");
   if (suite != nullptr) refuseUnused(*suite, app);
@@ -131,6 +134,7 @@ std::function<int()> declareBench(CLI::App& app, Console& console) {
          "--figures", choice->figures,
          "a folder: the experiments of the paper against the reference, with pictures (spherical_lights)")
       ->type_name("DIR");
+  addSpheresOption(app, choice->spheres);
   addOutput(app, choice->output, "FILE", "plot of --paper or --scaling: x.svg or x.csv");
   addDeviceOption(app, choice->device);
   addLightOptions(app, choice->light);

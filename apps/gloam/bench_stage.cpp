@@ -25,9 +25,11 @@ BenchStage prepareBench(const BenchChoice& choice, Console& console) {
   }
   stage.renderer.setScene(stage.scene);
   stage.renderer.setEnvironment(stage.environment);
+  if (!choice.spheres.empty() && !info.needs_spheres)
+    console.remark(fmt::format("--spheres: {} takes none", info.name));
   if (info.needs_spheres) {
     stage.spheres = spheresForDrawing(stage.scene, choice.scene.name, true, console,
-                                      stage.options.settings.integer("spheres"));
+                                      stage.options.settings.integer("spheres"), nullptr, choice.spheres);
     giveSpheres(stage.renderer, info, stage.scene, stage.spheres, choice.scene.name, true, console);
   }
   stage.posed = pose(stage.scene, choice.view.time_s);

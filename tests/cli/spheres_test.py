@@ -56,6 +56,10 @@ class Spheres(CliTest):
         self.succeed("render", BOX, *draw, "--spheres", "less.json", "-o", "b.png")
         self.assertNotEqual(self.path("a.png").read_bytes(), self.path("b.png").read_bytes())
         self.refuse("render", "builtin:shadow", *draw, "--spheres", "box.json", "-o", "c.png", says="box.json")
+        bench = ["bench", "proxies", *SMALL, "--frames", "1"]
+        self.succeed(*bench, BOX, "--spheres", "less.json")
+        self.refuse(*bench, "builtin:shadow", "--spheres", "box.json", says="box.json")
+        self.refuse(*bench, "--scaling", "--spheres", "box.json", says="--spheres")
         self.refuse("render", BOX, *draw, "--spheres", "missing.json", "-o", "c.png", says="missing.json")
         text = self.succeed("render", BOX, "--technique", "irradiance", *SMALL, "--spheres", "box.json", "-o", "d.png").err
         self.assertIn("takes none", text)
