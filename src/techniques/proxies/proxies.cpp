@@ -157,6 +157,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .read("normals", gbuffer.normals)
       .read("receiver_normal", step.level.normal_depth)
       .read("field", field)
+      .read("visibility", coarse.field)
       .read("indirect", coarse.indirect)
       .read("light", step.light)
       .read("misfits", misfits)

@@ -27,9 +27,11 @@ layout(scalar, set = 0, binding = 7) readonly buffer Misfits { QuadList list; ui
 layout(scalar, set = 0, binding = 10) buffer Repairs { QuadList list; uint at[]; } repairs;
 layout(set = 0, binding = 8, rgba16f) uniform image2D direct_full;  // A: how much of it is kept
 layout(set = 0, binding = 9, rgba16f) uniform image2D indirect_full;
+layout(set = 0, binding = 11) uniform sampler2DArray visibility;  // O_p
 layout(scalar, push_constant) uniform Push { uint divisor; uint capacity; uint repair_capacity; } push;
 
 #include "frame/quads.glsl"
+#include "techniques/proxies/proxies_round.glsl"
 #include "techniques/proxies/proxies_shade.glsl"
 #include "techniques/proxies/proxies_slope.glsl"
 
@@ -39,6 +41,15 @@ void toRepairs(uint entry) {
   uint free = atomicAdd(repairs.list.count_and_one, 1u) - 1u;
   if (free < push.repair_capacity) repairs.at[free] = entry;
   if (free > 0u && free < push.repair_capacity && free % kRepairGroup == 0u) atomicAdd(repairs.list.groups_x, 1u);
+}
+
+/// Of what is not known of a pixel yet, that share.
+void blendIn(ivec2 pixel, vec3 lit, vec3 sent, float known) {
+  vec4 before = imageLoad(direct_full, pixel);
+  float kept = before.a + (1.0 - before.a) * known, share = before.a / kept;
+  vec3 sent_before = imageLoad(indirect_full, pixel).rgb;
+  imageStore(direct_full, pixel, vec4(mix(lit, before.rgb, share), kept));
+  imageStore(indirect_full, pixel, vec4(mix(sent, sent_before, share), 1.0));
 }
 
 void main() {
@@ -99,16 +110,18 @@ void main() {
       vec3 lit = whole_field ? litThrough(float[16](f0.x, f0.y, f0.z, f0.w, f1.x, f1.y, f1.z, f1.w, f2.x, f2.y, f2.z,
                                                     f2.w, f3.x, f3.y, f3.z, f3.w), normal)
                              : litByPlanes(f0, f1, f2, sent.a, normal);
-      vec4 before = imageLoad(direct_full, pixel);
-      float kept = before.a + (1.0 - before.a) * known, share = before.a / kept;
-      vec3 sent_before = imageLoad(indirect_full, pixel).rgb;
-      imageStore(direct_full, pixel, vec4(mix(lit, before.rgb, share), kept));
-      imageStore(indirect_full, pixel, vec4(mix(max(sent.rgb, vec3(0.0)), sent_before, share), 1.0));
+      blendIn(pixel, lit, max(sent.rgb, vec3(0.0)), known);
     }
   }
   while (unknown != 0u) {
     uint mask = oneReceiver(first, unknown);
     unknown &= ~mask;
-    toRepairs(packed & ~31u | mask);
+    Lent lent = lentTo(first, mask);
+    for (uint i = 0u; lent.known > 0.0 && i < 4u; ++i) {
+      if ((mask >> i & 1u) == 0u) continue;
+      ivec2 pixel = pixelOf(first, i);
+      blendIn(pixel, litAt(lent, shadingNormal(texelFetch(normals, pixel, 0).xy)), lent.sent, lent.known);
+    }
+    if (lent.known < 0.99) toRepairs(packed & ~31u | mask);
   }
 }
