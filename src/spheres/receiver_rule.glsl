@@ -10,6 +10,8 @@ struct SeenSphere {
   vec3 direction;
 };
 
+const float kBulge = 0.08f, kStandsOut = 0.4f;
+
 SeenSphere seenSphere(vec3 receiver, vec3 normal, vec3 center, float radius) {
   SeenSphere seen;
   seen.sin_half_angle = 0.0f;
@@ -23,7 +25,8 @@ SeenSphere seenSphere(vec3 receiver, vec3 normal, vec3 center, float radius) {
     seen.direction = d / dist;
     return seen;
   }
-  float standing = 0.5f * (height + radius);
+  float standing = 0.5f * (height + radius) * smoothstep(kBulge, kStandsOut, 0.5f * (height + radius) / radius);
+  if (standing <= 0.0f) return seen;
   vec3 along = d - height * normal;
   float held2 = max(dot(along, along), radius * radius - height * height);
   vec3 to_standing = along + standing * normal;

@@ -5,8 +5,9 @@
 // t = h + r and x the distance of the centre along the tangent plane: t <= 0 drops the sphere; h >= r leaves it, sin = r / d;
 // else it acts as a sphere of radius rho = (h + r) / 2 that stands on the plane at the same foot point, with
 //   sin = rho / sqrt(max(x^2, r^2 - h^2) + rho^2):
-// held, within the sphere, at its value on crossing its surface. Continuous; a body that one sphere fits well does not
-// darken itself. The rule is ours: Sloan et al. 2007 say "reduced or culled".
+// held, within the sphere, at its value on crossing its surface. Of a sphere of which little stands out of the plane, less counts
+// than does: spheres that bound a wall or a limb bulge out of it by so much, and would darken it in spots. Continuous; a body that one
+// sphere fits well does not darken itself. The rule is ours: Sloan et al. 2007 say "reduced or culled".
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,6 +20,9 @@ struct SeenSphere {
   glm::vec3 direction;   ///< unit, to the centre of the sphere that stands for it; N where that has none
 };
 
+/// Of a sphere's width, what may stand out of a plane and count nothing, and from where on all of it counts.
+inline constexpr float kBulge = 0.08f, kStandsOut = 0.4f;
+
 inline SeenSphere seenSphere(const glm::vec3& receiver, const glm::vec3& normal, const glm::vec3& center,
                              float radius) {
   const glm::vec3 d = center - receiver;
@@ -28,7 +32,9 @@ inline SeenSphere seenSphere(const glm::vec3& receiver, const glm::vec3& normal,
     const float distance = glm::length(d);
     return {glm::min(radius / distance, 1.0f), d / distance};
   }
-  const float standing = 0.5f * (height + radius);
+  const float out = glm::smoothstep(kBulge, kStandsOut, 0.5f * (height + radius) / radius);
+  const float standing = 0.5f * (height + radius) * out;
+  if (!(standing > 0.0f)) return {0.0f, normal};
   const glm::vec3 along = d - height * normal;
   const float x2 = glm::dot(along, along);
   const float held2 = glm::max(x2, radius * radius - height * height);

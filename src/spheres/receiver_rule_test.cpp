@@ -50,6 +50,13 @@ TEST(ReceiverRule, ABodyThatItsSphereFitsDoesNotDarkenItself) {
   }
 }
 
+TEST(ReceiverRule, WhatBulgesALittleOutOfAWallDoesNotDarkenIt) {
+  for (float x = 0.0f; x < 3.0f; x += 0.05f) EXPECT_EQ(seenSin({x, -0.85f, 0}, 1.0f), 0.0f);  // by 0.15 of 2
+  EXPECT_GT(seenSin({1.5f, -0.5f, 0}, 1.0f), 0.0f);
+  // A ball sunk to its middle, or less, counts in full.
+  EXPECT_NEAR(seenSin({3, -0.2f, 0}, 1.0f), 0.4f / std::sqrt(9.16f), 1e-6f);
+}
+
 TEST(ReceiverRule, IsContinuous) {
   sampling::Rng random(8);
   float steepest = 0.0f;
