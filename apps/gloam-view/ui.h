@@ -83,6 +83,8 @@ void saveSection(Session& session, UiState& ui);
 // Helpers: a label on the left, the control on the right.
 void label(const char* text, const char* help = nullptr);
 void helpMark(const char* help);
+/// The same of an entry of a list, to the left of it: over the list it would hide the next ones.
+void helpBeside(const char* help);
 bool inputPath(const char* id, std::string& text, float width);
 void dim(const std::string& text);
 /// In one line; what does not fit is cut, and shown whole under the mouse.

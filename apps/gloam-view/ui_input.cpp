@@ -4,6 +4,7 @@
 // Mouse over the picture, and keys (docs/viewer.md lists them).
 #include <GLFW/glfw3.h>
 #include <fmt/core.h>
+#include <imgui_internal.h>  // ClosePopupToLevel
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,8 @@ void fileKeys(Session& session, UiState& ui) {
 
 void keys(Session& session, UiState& ui) {
   const ImGuiIO& io = ImGui::GetIO();
+  const bool lists = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);  // Esc closes them, and nothing else
+  if (lists && std::erase(ui.pressed, GLFW_KEY_ESCAPE) > 0) ImGui::ClosePopupToLevel(0, false);
   if (io.WantTextInput) return;
   if (among(ui.pressed, GLFW_KEY_TAB)) ui.panel = !ui.panel;
   if (among(ui.pressed, GLFW_KEY_F)) session.frameScene();

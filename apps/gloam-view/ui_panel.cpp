@@ -37,7 +37,7 @@ void openPopup(Session& session, UiState& ui) {
     dim("Opened before");
     for (const std::string& name : session.recent().names()) {
       if (ImGui::Selectable(shortName(name).c_str())) session.open(name);
-      if (ImGui::IsItemHovered()) helpMark(name.c_str());
+      if (ImGui::IsItemHovered() && shortName(name) != name) helpBeside(name.c_str());
     }
   }
   ImGui::Spacing();
@@ -48,7 +48,7 @@ void openPopup(Session& session, UiState& ui) {
       session.open(fmt::format("builtin:{}", scene.name));
       ImGui::CloseCurrentPopup();
     }
-    if (ImGui::IsItemHovered()) helpMark(scene.summary);
+    if (ImGui::IsItemHovered()) helpBeside(scene.summary);
   }
   ImGui::EndChild();
   ImGui::EndPopup();
@@ -84,7 +84,7 @@ void techniqueSection(Session& session, UiState& ui) {
   if (ImGui::BeginCombo("##technique", wanted.name)) {
     for (const TechniqueInfo& info : techniques()) {
       if (ImGui::Selectable(info.name, &info == &wanted)) session.pick(kLeft, info.name);
-      if (ImGui::IsItemHovered()) helpMark(info.summary);
+      if (ImGui::IsItemHovered()) helpBeside(info.summary);
     }
     ImGui::EndCombo();
   }
@@ -113,7 +113,7 @@ void lightSection(Session& session) {
     for (const BuiltinScene& sky : builtinSkies()) {
       const std::string name = fmt::format("sky:{}", sky.name);
       if (ImGui::Selectable(name.c_str(), named == name)) session.openEnvironment(name);
-      if (ImGui::IsItemHovered()) helpMark(sky.summary);
+      if (ImGui::IsItemHovered()) helpBeside(sky.summary);
     }
     ImGui::EndCombo();
   }

@@ -121,7 +121,7 @@ void compareSection(Session& session, UiState& ui) {
   if (ImGui::BeginCombo("##right", session.wanted[kRight].info->name)) {
     for (const TechniqueInfo& info : techniques()) {
       if (ImGui::Selectable(info.name, &info == session.wanted[kRight].info)) session.pick(kRight, info.name);
-      if (ImGui::IsItemHovered()) helpMark(info.summary);
+      if (ImGui::IsItemHovered()) helpBeside(info.summary);
     }
     ImGui::EndCombo();
   }

@@ -110,6 +110,12 @@ void helpMark(const char* help) {
   ImGui::EndTooltip();
 }
 
+void helpBeside(const char* help) {
+  const ImVec2 at(ImGui::GetWindowPos().x - ImGui::GetStyle().ItemSpacing.x, ImGui::GetItemRectMin().y);
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, {1.0f, 0.0f});
+  helpMark(help);
+}
+
 void valueRow(const char* name, const std::string& value) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();

@@ -399,6 +399,22 @@ class ViewerTest(unittest.TestCase):
         self.assertEqual([p["name"] for p in copied["passes"]], [p["name"] for p in stats["passes"]])
         self.assertIn("times are on the clipboard", stats["messages"])
 
+    def test_escape_closes_a_list_and_nothing_else(self):
+        window = [BOX, "--size", "1100x700", "--scale", "0.1"]
+        self.script([{"wait": "idle"}, {"wait": 5}, {"stats": "closed.json"}], *window)
+        x, y, width, height = self.stats("closed.json")["controls"]["technique"]
+        middle = [x + width / 2, y + height / 2]
+        seen = [{"mouse": [20, 690]}, {"wait": 12}, {"wait": "idle"}]
+        self.script([{"wait": "idle"}, {"click": [270, 450]}, {"wait": "idle"}, *seen, {"window_screenshot": "before.png"}, {"stats": "before.json"},
+                     {"click": middle}, *seen, {"window_screenshot": "open.png"}, {"key": "escape"}, *seen, {"window_screenshot": "after.png"},
+                     {"stats": "after.json"}], *window)
+        left = int(x)
+        panel = {n: [row[3 * left:3 * int(x + width)] for row in png_size_and_rows(self.folder / f"{n}.png")[2][int(y) + 40:int(y) + 160]]
+                 for n in ("before", "open", "after")}
+        self.assertNotEqual(panel["before"], panel["open"])
+        self.assertEqual(panel["before"], panel["after"])
+        self.assertEqual(self.stats("before.json")["selected"], self.stats("after.json")["selected"])
+
     def test_frame_times_are_plotted(self):
         """A line as wide as the panel, over its field."""
         window = [BOX, "--size", "1100x900", "--scale", "0.1"]
