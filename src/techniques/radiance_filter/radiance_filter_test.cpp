@@ -210,6 +210,20 @@ TEST(RadianceFilter, GoldenBumps) {
   EXPECT_EQ(test::compareWithGolden(picture, "bumps_radiance_filter"), "");
 }
 
+TEST(RadianceFilter, ViewsAreKeptForWhoAsksByName) {
+  const Scene scene = loadScene("builtin:cornell?detail=0.3");
+  const PosedScene posed = pose(scene, 0.0f);
+  for (const char* shown : {"", "radiance_filter.weights"}) {
+    frame::TestFrame frame(scene);
+    RadianceFilter technique(gpu::testDevice());
+    frame.draw(posed, posed.cameras.at(0), {.width = 24, .height = 16, .show = shown},
+               [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
+                 return technique.record(graph, inputs, settings({}));
+               });
+    EXPECT_EQ(bool(frame.graph.find("radiance_filter.weights")), shown[0] != '\0');
+  }
+}
+
 TEST(RadianceFilter, SamePictureAgain) {
   const Scene scene = loadScene("builtin:cornell?detail=0.3");
   EXPECT_EQ(draw(scene, {}, 60, 40).color, draw(scene, {}, 60, 40).color);
