@@ -88,6 +88,8 @@ std::vector<PatchRow> flatRowsOf(std::span<const frame::Patch> flats) {
   return rows;
 }
 
+constexpr std::uint32_t kFewProxies =
+    128;  // up to which pixels from scratch cost less than finding a way round them
 constexpr std::uint32_t kMostGroups = 65535;  // of a dispatch, on any device
 
 /// What receivers get, and the field O_p.
@@ -152,6 +154,7 @@ Received recordUpsampling(const Step& step, const Received& coarse) {
       .dispatchOver(quads.columns, quads.rows);
   step.graph.compute("proxies.extend", proxies_extend_spv)
       .specialize("whole_field", step.whole_field)
+      .specialize("lends", step.proxy_count > kFewProxies)
       .read("frame_view", step.inputs.view)
       .read("depth", gbuffer.depth)
       .read("normals", gbuffer.normals)

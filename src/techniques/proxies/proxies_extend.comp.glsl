@@ -14,6 +14,7 @@
 #include "techniques/proxies/proxies_shared.h"
 
 layout(constant_id = 0) const bool whole_field = false;
+layout(constant_id = 1) const bool lends = false;  // proxies_round.glsl: worth it where pixels from scratch meet many proxies
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -116,6 +117,10 @@ void main() {
   while (unknown != 0u) {
     uint mask = oneReceiver(first, unknown);
     unknown &= ~mask;
+    if (!lends) {
+      toRepairs(packed & ~31u | mask);
+      continue;
+    }
     Lent lent = lentTo(first, mask);
     for (uint i = 0u; lent.known > 0.0 && i < 4u; ++i) {
       if ((mask >> i & 1u) == 0u) continue;
