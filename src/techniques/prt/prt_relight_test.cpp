@@ -255,10 +255,11 @@ TEST(PrtRelight, GlossIsThePlainSumOnEveryInstructionSet) {
               ASSERT_NEAR(got(block.output_ + v, i, std::size_t(c)), first[c],
                           1e-3 * std::abs(first[c]) + 1e-4)
                   << a << b << i;
-              if (has_indirect)
+              if (has_indirect) {
                 ASSERT_NEAR(got(block.output_ + v, i, std::size_t(3 + c)), further[c],
                             1e-3 * std::abs(further[c]) + 1e-4)
                     << a << b << i;
+              }
             }
           }
       }
