@@ -3,6 +3,7 @@
 #include "compare_reference.h"
 
 #include <fmt/core.h>
+#include <scene/coverage.h>
 #include <scene/drawn_fingerprint.h>
 
 #include <algorithm>
@@ -96,6 +97,47 @@ void requireObjects(const LayeredImage& image, const fs::path& file) {
   }
 }
 
+/// Sums of layers by channel; what is rounded to halves differs by no more.
+bool isSum(const Image& whole, const Image& sum) {
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+    const float a = whole.pixels[i], b = sum.pixels[i];
+    if (std::abs(a - b) > 4e-3f * std::max(std::abs(a), std::abs(b)) + 1e-4f) return false;
+  }
+  return true;
+}
+
+/// Techniques are held to different layers: those that contradict one another would make one of them look good or bad.
+void requireSums(const LayeredImage& image, const fs::path& file) {
+  const std::vector<std::string> rgb = {"R", "G", "B"};
+  const auto add = [&](Image& sum, const char* layer) {
+    const Image part = image.image(layer, rgb, file.string());
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += part.pixels[i];
+  };
+  const auto require = [&](const char* layer, const Image& sum, const char* of) {
+    if (isSum(image.image(layer, rgb, file.string()), sum)) return;
+    throw Error(file.string(), fmt::format("{} is not the sum of {}: the file was altered",
+                                           *layer ? fmt::format("layer {}", layer) : "R, G, B", of));
+  };
+  Image light(image.width, image.height, 3), direct = light, indirect = light;
+  add(light, "direct");
+  add(light, "indirect");
+  require("", light, "layers direct and indirect");
+  bool parts = false;
+  for (const Layer& layer : image.layers) {
+    const std::string source = layer.name.substr(0, layer.name.find_first_of("0123456789") - 1);
+    const auto member = std::ranges::find_if(kCoverageMembers, [&](const CoverageMember& m) {
+      return layer.name == m.name || (source == m.name && layer.name.size() > source.size());
+    });
+    if (member == std::end(kCoverageMembers)) continue;
+    parts = true;
+    add(member->direct ? direct : indirect, layer.name.c_str());
+  }
+  if (!parts) return;
+  add(direct, "seen");
+  require("direct", direct, "its sources' layers and seen");
+  require("indirect", indirect, "its sources' layers");
+}
+
 /// What a comparison takes from any reference, and that nobody cut a piece out of it.
 void requireWhole(const LayeredImage& image, const fs::path& file) {
   image.image("", {"R", "G", "B", "A"}, file.string());
@@ -176,6 +218,7 @@ ReferencePicture readReference(const fs::path& file) {
   coverageOf(layers, file.string());
   requireWhole(layers, file);
   requireFinite(layers, file);
+  requireSums(layers, file);
   ReferencePicture picture = pictureOf(std::move(layers), file);
   picture.text = samplesText(picture, file.string());
   return picture;
@@ -196,6 +239,12 @@ bool checkReference(const ReferencePicture& reference, const ReferenceScene& sce
         "under another light; expected the same --env, --env-rotation and --env-intensity");
   check("gloam.camera", drawnFingerprint(scene.camera),
         "from another camera; expected the view that is compared");
+  if (const Layer* objects = reference.layers.find("object")) {
+    const auto most = std::ranges::max_element(objects->ids);
+    if (most != objects->ids.end() && *most > scene.posed.instances.size())
+      throw Error("--reference", fmt::format("{}: channel object.id holds {}; the scene has {} objects",
+                                             reference.file.string(), *most, scene.posed.instances.size()));
+  }
   return all;
 }
 

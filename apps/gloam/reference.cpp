@@ -110,6 +110,8 @@ ReferenceGoal goalOf(const ReferenceChoice& choice, const fs::path& checkpoint, 
 
 /// Light that was asked for by name and is not there is a slip: hours of black would be no answer.
 void requireAskedLight(const ReferenceChoice& choice, const Stage& stage, const PlannedFrame& frame) {
+  if (choice.parts.indirect && !choice.parts.direct && stage.options.bounces == 0)
+    throw Error("--indirect", "without bounces there is no such light; expected --bounces 1 or more");
   if (choice.parts.only.empty()) return;
   const Coverage there =
       lightIn(stage.scene, poseMoved(stage.scene, stage.moves, frame.time_s),

@@ -216,6 +216,7 @@ std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part,
     return value;
   }
   if (asked.cutsASum()) return std::nullopt;
+  if (text->empty()) throw damaged("is empty");
   std::istringstream words(*text);
   std::vector<bool> taken;  // of the paths so far
   double variance = 0.0;
@@ -229,6 +230,8 @@ std::optional<double> varianceOf(const LayeredImage& file, const Coverage& part,
       double value = 0.0;
       if (!(words >> value) || !std::isfinite(value))
         throw damaged(fmt::format("a number is missing after {}", name));
+      if (other + 1 == taken.size() && value < 0.0)
+        throw damaged(fmt::format("{} of {}; expected a variance of 0 or more", value, name));
       if (taken[other] && taken.back()) variance += (other + 1 < taken.size() ? 2.0 : 1.0) * value;
     }
   }

@@ -371,7 +371,7 @@ class References(CliTest):
     LIGHT = {"gloam.kind": "reference", "gloam.light": "environment_direct environment_indirect", "gloam.bounces": "1"}
 
     def reference(self, attributes=None, **changed):
-        channels = {f"{prefix}{c}": 0.5 for prefix in ("", "direct.", "indirect.") for c in "RGB"} | {"A": 1.0}
+        channels = {f"{prefix}{c}": value for prefix, value in (("", 0.5), ("direct.", 0.25), ("indirect.", 0.25)) for c in "RGB"} | {"A": 1.0}
         for name in changed.pop("without", []):
             del channels[name]
         exr.write(self.path("truth.exr"), 8, 6, channels | {name.replace("_", "."): value for name, value in changed.items()},
@@ -413,13 +413,21 @@ class References(CliTest):
         self.reference(R=values)
         self.refused(says=["truth.exr", "channel R", "infinite"])
 
+    def test_whose_layers_contradict_one_another(self):
+        self.reference(direct_R=1.0)
+        self.refused(says=["truth.exr", "R, G, B is not the sum of layers direct and indirect"])
+        parts = {f"environment_direct.{c}": 0.25 for c in "RGB"} | {f"environment_indirect.{c}": 0.5 for c in "RGB"}
+        channels = {f"{prefix}{c}": value for prefix, value in (("", 1.0), ("direct.", 0.5), ("indirect.", 0.5)) for c in "RGB"}
+        exr.write(self.path("truth.exr"), 8, 6, channels | {"A": 1.0} | {f"seen.{c}": 0.0 for c in "RGB"} | parts, self.LIGHT)
+        self.refused(says="object.id is missing")
+
     def test_with_variances_that_cannot_be(self):
         for value, says in (math.nan, "not a number"), (-1.0, "below 0"):
             self.reference(variance_R=value, variance_G=0.1, variance_B=0.1)
             self.refused(says=["truth.exr", "variance.R", says])
-        for name, value in ("gloam.part_variance", "junk"), ("gloam.variance", "nan"):
+        for name, value in ("gloam.part_variance", "junk"), ("gloam.part_variance", "seen -1"), ("gloam.variance", "nan"):
             self.reference(attributes=self.LIGHT | {"gloam.light": "environment_direct local_direct", name: value})
-            self.refused(says=["truth.exr", f"attribute {name}", value])
+            self.refused(says=["truth.exr", f"attribute {name}", *value.split()])
 
     def test_without_numbers_of_objects(self):
         self.reference(object_id=1.0)

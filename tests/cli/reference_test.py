@@ -148,8 +148,9 @@ class Light(CliTest):
     def test_nothing_that_sends_such_light_is_said(self):
         furnace = "reference", "builtin:furnace?detail=0.25", *SMALL, *SKY, *QUICK
         self.refuse(*furnace, "--only", "lamps", "-o", "a.png", says=["--only", "no light of lamps", "environment_direct"])
-        err = self.succeed(*furnace, "--indirect", "--bounces", "0", "-o", "a.png").err
-        self.assertIn("nothing in the scene sends", err)
+        self.refuse(*furnace, "--indirect", "--bounces", "0", "-o", "a.png", says=["--indirect", "--bounces 1"])
+        dark = self.succeed(*furnace, "--env", "none", "-o", "a.png").err
+        self.assertIn("nothing in the scene sends", dark)
 
     def test_projection_of_the_sky(self):
         light = []

@@ -20,10 +20,13 @@ function choice(id, entries, chosen, change) {
   mark(chosen);
 }
 
-/// Where a picture stands in the narrow grid: a reference after the last technique that is held to it.
-function orderInPairs(index) {
-  const last = page.pictures.reduce((found, picture, i) => picture.technique !== null && picture.reference === index ? i : found, -1);
-  return last < 0 ? 2 * index : 2 * last + 1;
+/// Where a picture stands in the narrow grid: techniques that are held to one reference, and then it; each such group begins a line.
+function placeInPairs(index) {
+  const pictures = page.pictures, count = pictures.length;
+  const isTechnique = pictures[index].technique !== null, reference = isTechnique ? pictures[index].reference : index;
+  const first = pictures.findIndex((picture) => picture.technique !== null && picture.reference === reference);
+  const group = first < 0 ? count : first;
+  return {order: group * (count + 1) + (isTechnique ? index : count), column: first < 0 || index === first ? '1' : 'auto'};
 }
 
 function arrange() {
@@ -37,7 +40,10 @@ function arrange() {
   stage.classList.toggle('single', panes.length === 1);
   stage.classList.toggle('few', panes.length <= 2);
   stage.style.setProperty('--columns', panes.length <= 4 ? Math.max(panes.length, 2) : panes.length <= 6 || width > height ? 3 : 4);
-  for (const pane of panes) pane.figure.style.setProperty('--in-pairs', orderInPairs(pane.shows[0]));
+  for (const pane of panes) {
+    const {order, column} = placeInPairs(pane.shows[0]);
+    pane.figure.style.setProperty('--in-pairs', order), pane.figure.style.setProperty('--column', column);
+  }
   stage.replaceChildren(...panes.map((pane) => pane.figure));
   limitSingle();
   for (const pane of panes) pane.describe();
