@@ -84,6 +84,7 @@ void Session::open(const std::string& name, bool ground) {
     choice.view.camera.clear(), choice.view.eye.reset(), choice.view.target.reset();
     choice.view.time_s = 0.0f;
     choice.moves.clear();
+    choice.spheres.clear();
     choice.light.environment = environment_name;
   }
   openChoice(choice, [this, before = read_light_.count] {
@@ -101,12 +102,16 @@ void Session::openChoice(const ViewerChoice& choice, std::function<void()> then)
   light.intensity = 1.0f;
   const auto work = [this, choice, light, then](JobConsole& console) -> Jobs::Finish {
     Scene scene = cli::loadSceneToDraw(choice.scene, console);
+    if (!choice.spheres.empty()) readSpheres(choice.spheres, scene);  // refused before anything has changed
     auto base =
         std::make_shared<const DistantLight>(mapLight(cli::chooseBaseEnvironment(scene, light, console)));
     const PosedScene posed = pose(scene, choice.view.time_s);
     const PosedCamera posed_camera = cli::chooseCamera(posed, choice.view, console);
     const cli::NodeMoves moves = cli::movesIn(scene, choice.moves);
-    auto loaded = makeLoadedScene(choice.scene.name, choice.scene.ground, std::move(scene));
+    auto loaded = makeLoadedScene({.name = choice.scene.name,
+                                   .ground = choice.scene.ground,
+                                   .spheres = choice.spheres,
+                                   .scene = std::move(scene)});
     return [this, loaded, base, posed, posed_camera, moves, choice, then] {
       camera.set(posed_camera, posed);
       if (choice.view.eye && choice.view.target) camera.setTarget(*choice.view.eye, *choice.view.target);

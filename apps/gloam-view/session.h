@@ -121,6 +121,8 @@ class Session {
   Jobs::Status job() const { return jobs_.status(); }
   void cancelJob() { jobs_.cancel(); }
   bool waitsFor(Side side) const;  ///< the technique that was picked is still being prepared
+  bool sharesBake()
+      const;  ///< the right half is drawn of the left one's bake, of another kind than it asks for
   float duration_s() const { return duration_s_; }
   float aspect() const { return height_ > 0 ? float(width_) / float(height_) : 1.0f; }
   std::uint64_t pictureRevision() const { return picture_revision_; }
@@ -147,6 +149,8 @@ class Session {
   void carryMoves(const Scene& from, const Scene& to);
   void startBake(const Pick& pick);
   void startSpheres(int count, bool emission);
+  bool isBaked(Side side, const Pick& pick) const;
+  bool isReady(Side side, const Pick& pick) const;
   void takePicks();
   void takeDrawn();
   void takeReference();

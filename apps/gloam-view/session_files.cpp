@@ -36,8 +36,10 @@ void Session::loadPreset(const std::string& path) {
   try {
     ViewerChoice preset = readPreset(path);
     if (preset.technique.name.empty()) preset.technique.name = wanted[kLeft].info->name;
-    const bool other = preset.scene_given && (wholeName(preset.scene.name) != wholeName(scene_name) ||
-                                              !state.scene || preset.scene.ground != state.scene->ground);
+    const bool other =
+        preset.scene_given && (!state.scene || wholeName(preset.scene.name) != wholeName(scene_name) ||
+                               preset.scene.ground != state.scene->ground ||
+                               wholeName(preset.spheres) != wholeName(state.scene->spheres));
     if (other) return openPreset(preset, path);
     if (!state.scene) throw Error(path, "no scene is there yet");
     takePreset(preset, path);
@@ -72,6 +74,7 @@ void Session::openPreset(const ViewerChoice& preset, const std::string& path) {
   choice.view = preset.view;
   choice.light = preset.light;
   choice.moves = preset.moves;
+  choice.spheres = preset.spheres;
   openChoice(choice, [this, preset, path] { takePreset(preset, path); });
 }
 

@@ -14,16 +14,36 @@
 
 namespace gloam::view {
 
-bool isReady(const Pick& pick, const LoadedScene& scene, const Needs& needs) {
-  if (pick.info->needs_bake && !cli::carriesTransfer(scene.scene)) return false;
+bool hasBakeFor(const Pick& pick, const LoadedScene& scene) {
+  if (!pick.info->needs_bake) return true;
+  if (!cli::carriesTransfer(scene.scene)) return false;
+  return !scene.unbaked || scene.apart == cli::bakesApart(*pick.info, pick.settings);
+}
+
+bool hasSpheresFor(const Pick& pick, const LoadedScene& scene, const Needs& needs) {
   if (!pick.info->needs_spheres) return true;
   if (pick.info->needs_emission && !needs.emission) return false;
   return needs.spheres && needs.of == &scene && needs.sphere_count == pick.settings.integer("spheres");
 }
 
+/// There is one bake at a time: where both halves want one, the left half says of which kind.
+bool Session::isBaked(Side side, const Pick& pick) const {
+  const bool follows =
+      side == kRight && wanted[kLeft].info->needs_bake && cli::carriesTransfer(state.scene->scene);
+  return follows || hasBakeFor(pick, *state.scene);
+}
+
+bool Session::isReady(Side side, const Pick& pick) const {
+  return isBaked(side, pick) && hasSpheresFor(pick, *state.scene, state.needs);
+}
+
 bool Session::waitsFor(Side side) const {
-  return state.scene && (side == kLeft || state.split == Split::kTechnique) &&
-         !isReady(wanted[side], *state.scene, state.needs);
+  return state.scene && (side == kLeft || state.split == Split::kTechnique) && !isReady(side, wanted[side]);
+}
+
+bool Session::sharesBake() const {
+  return state.split == Split::kTechnique && wanted[kRight].info->needs_bake &&
+         isBaked(kRight, wanted[kRight]) && !hasBakeFor(wanted[kRight], *state.scene);
 }
 
 /// Starts what the picked techniques lack: one thing after the other.
@@ -33,7 +53,7 @@ void Session::prepare() {
   for (const Side side : {kLeft, kRight}) {
     if (!waitsFor(side)) continue;
     const Pick& pick = wanted[side];
-    if (pick.info->needs_bake && !cli::carriesTransfer(state.scene->scene)) return startBake(pick);
+    if (!isBaked(side, pick)) return startBake(pick);
     if (pick.info->needs_spheres)
       return startSpheres(pick.settings.integer("spheres"), pick.info->needs_emission);
   }
@@ -61,10 +81,17 @@ void Session::carryMoves(const Scene& from, const Scene& to) {
 void Session::startBake(const Pick& pick) {
   preparing_ = true;
   const auto scene = state.scene;
-  const auto work = [this, scene, time_s = state.time_s,
+  const auto unbaked = scene->unbaked ? scene->unbaked : scene;
+  const bool apart = cli::bakesApart(*pick.info, pick.settings);
+  const auto work = [this, scene, unbaked, apart, time_s = state.time_s,
                      use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
-    Scene baked = cli::bakeForDrawing(scene->scene, scene->name, time_s, use_cache, console);
-    auto loaded = makeLoadedScene(scene->name, scene->ground, std::move(baked));
+    Scene baked = cli::bakeForDrawing(unbaked->scene, unbaked->name, time_s, use_cache, console, apart);
+    auto loaded = makeLoadedScene({.name = unbaked->name,
+                                   .ground = unbaked->ground,
+                                   .spheres = unbaked->spheres,
+                                   .scene = std::move(baked),
+                                   .unbaked = unbaked,
+                                   .apart = apart});
     return [this, scene, loaded] {
       preparing_ = false;
       if (state.scene == scene) {  // not another one in the meantime
@@ -93,8 +120,8 @@ void Session::startSpheres(int count, bool emission) {
   const auto scene = state.scene;
   const auto work = [this, scene, count, emission,
                      use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
-    auto spheres = std::make_shared<const SceneSpheres>(
-        cli::spheresForDrawing(scene->scene, scene->name, use_cache, console, count));
+    auto spheres = std::make_shared<const SceneSpheres>(cli::spheresForDrawing(
+        scene->scene, scene->name, use_cache, console, count, nullptr, scene->spheres));
     std::shared_ptr<const SceneEmission> sent;
     if (emission) {
       sent = std::make_shared<const SceneEmission>(
@@ -122,10 +149,10 @@ void Session::startSpheres(int count, bool emission) {
 /// What is ready is shown from the next picture on.
 void Session::takePicks() {
   if (!state.scene) return;
-  if (isReady(wanted[kLeft], *state.scene, state.needs)) state.left = wanted[kLeft];
-  if (isReady(wanted[kRight], *state.scene, state.needs)) state.right = wanted[kRight];
-  for (Pick* shown : {&state.left, &state.right}) {  // of a scene before this one
-    if (!isReady(*shown, *state.scene, state.needs)) *shown = pickOf(techniques().front());
+  for (const Side side : {kLeft, kRight}) {
+    Pick& shown = side == kLeft ? state.left : state.right;
+    if (isReady(side, wanted[side])) shown = wanted[side];
+    if (!isReady(side, shown)) shown = pickOf(techniques().front());  // of a scene before this one
   }
 }
 

@@ -227,8 +227,9 @@ bool Session::idle() const {
 }
 
 bool Session::stands() const {
-  const bool shown = !jobs_.status().busy && !preparing_ && !worker_.busy() && drawn_ &&
-                     answered_serial_ == serial_ && answered_width_ == sent_width_;
+  const bool prepared = !jobs_.status().busy && !preparing_ && !waitsFor(kLeft) && !waitsFor(kRight);
+  const bool shown =
+      prepared && !worker_.busy() && drawn_ && answered_serial_ == serial_ && answered_width_ == sent_width_;
   if (dragging) return shown && !playing && now_s() - last_change_s_ >= kStillSeconds;
   return shown && !moving() && still_serial_ == serial_;
 }

@@ -23,7 +23,10 @@ struct Needs {
   const LoadedScene* of = nullptr;                ///< the scene that they belong to
 };
 
-/// Whether all that the technique needs is there.
-bool isReady(const Pick& pick, const LoadedScene& scene, const Needs& needs);
+/// Whether the scene carries a bake of the kind that the technique asks for with its options, as `gloam render` makes it. A
+/// bake that came with the scene serves all.
+bool hasBakeFor(const Pick& pick, const LoadedScene& scene);
+/// Whether all that the technique needs is there, but for a bake.
+bool hasSpheresFor(const Pick& pick, const LoadedScene& scene, const Needs& needs);
 
 }  // namespace gloam::view

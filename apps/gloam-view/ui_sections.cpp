@@ -126,6 +126,7 @@ void compareSection(Session& session, UiState& ui) {
     ImGui::EndCombo();
   }
   if (session.waitsFor(kRight)) dim("being prepared");
+  if (session.sharesBake()) dim("Drawn of the left half's bake, which local_light decides.");
   optionControls(session, ui, kRight);
 }
 

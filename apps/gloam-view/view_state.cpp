@@ -14,15 +14,13 @@ glm::vec3 middleOf(const std::vector<glm::vec3>& points) {
 
 }  // namespace
 
-std::shared_ptr<const LoadedScene> makeLoadedScene(std::string name, bool ground, Scene scene) {
-  auto loaded = std::make_shared<LoadedScene>();
-  loaded->name = std::move(name);
-  loaded->ground = ground;
+std::shared_ptr<const LoadedScene> makeLoadedScene(LoadedScene given) {
+  auto loaded = std::make_shared<LoadedScene>(std::move(given));
+  const Scene& scene = loaded->scene;
   loaded->light_nodes = cli::lightNodes(scene);
   for (const Instance& instance : pose(scene, 0.0f).instances)
     loaded->instance_nodes.push_back(instance.node);
   for (const Mesh& mesh : scene.meshes) loaded->mesh_middles.push_back(middleOf(mesh.positions));
-  loaded->scene = std::move(scene);
   return loaded;
 }
 

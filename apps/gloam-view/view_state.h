@@ -20,13 +20,17 @@ namespace gloam::view {
 struct LoadedScene {
   std::string name;  ///< as it was asked for: a file or builtin:NAME
   bool ground = false;
+  std::string spheres;  ///< file of sphere sets that it is drawn by; empty: fitted ones
   Scene scene;
+  std::shared_ptr<const LoadedScene>
+      unbaked;                          ///< what this is a bake of, made here; null where it came as it is
+  bool apart = false;                   ///< that bake is of objects apart
   std::vector<int> light_nodes;         ///< nodes of PosedScene::lights, in that order
   std::vector<int> instance_nodes;      ///< of PosedScene::instances
   std::vector<glm::vec3> mesh_middles;  ///< of each mesh's box, in its own axes
 };
 /// Fills in what follows from the scene.
-std::shared_ptr<const LoadedScene> makeLoadedScene(std::string name, bool ground, Scene scene);
+std::shared_ptr<const LoadedScene> makeLoadedScene(LoadedScene given);
 
 /// A technique with its options.
 struct Pick {

@@ -10,6 +10,7 @@
 #include "camera_control.h"
 #include "file_names.h"
 #include "settings_file.h"
+#include "spheres_run.h"
 #include "view_state.h"
 
 namespace gloam::view {
@@ -58,6 +59,7 @@ void declare(CLI::App& app, ViewerChoice& choice) {
       ->description("of the window, in pixels")
       ->default_str(fmt::format("{}x{}", kDefaultWidth, kDefaultHeight));
   cli::addTechniqueOptions(app, choice.technique);
+  cli::addSpheresOption(app, choice.spheres);
   cli::addDisplayOptions(app, choice.display);
   cli::addDeviceOption(app, choice.device);
   cli::addText(app, "--show", choice.show, "LAYER",
@@ -111,6 +113,7 @@ void writePreset(const std::string& file, const ViewState& state, const CameraCo
   if (state.scene) {
     json["scene"] = wholeName(state.scene->name);
     if (state.scene->ground) json["ground"] = true;
+    if (!state.scene->spheres.empty()) json["spheres"] = wholeName(state.scene->spheres);
     if (!state.moves.empty()) json["move"] = cli::moveTexts(state.scene->scene, state.moves);
   }
   if (!environment.empty()) json["env"] = wholeName(environment);

@@ -27,6 +27,7 @@ struct ViewerChoice {
   std::vector<cli::MoveText> moves;
   cli::TechniqueChoice technique;
   cli::DisplayChoice display;
+  std::string spheres;  ///< file of the scene's sphere sets
   std::string device, show;
   bool use_cache = true;
 

@@ -35,7 +35,10 @@ TEST(Preset, HoldsSceneMovesAndLights) {
   const std::string file =
       (std::filesystem::temp_directory_path() / "gloam_viewer_choice_test.json").string();
   ViewState state;
-  state.scene = makeLoadedScene("builtin:cornell", true, named({"lamp", "box", "box", "", "#0", "a=1,2,3"}));
+  state.scene = makeLoadedScene({.name = "builtin:cornell",
+                                 .ground = true,
+                                 .spheres = "/its.spheres.json",
+                                 .scene = named({"lamp", "box", "box", "", "#0", "a=1,2,3"})});
   state.left = pickOf(techniques().front());
   state.width = 640;
   state.height = 420;
@@ -54,6 +57,7 @@ TEST(Preset, HoldsSceneMovesAndLights) {
   EXPECT_TRUE(read.scene_given);
   EXPECT_EQ(read.scene.name, "builtin:cornell");
   EXPECT_TRUE(read.scene.ground);
+  EXPECT_EQ(read.spheres, "/its.spheres.json");
   EXPECT_EQ(read.light.light_texts, lights);
   EXPECT_EQ(read.light.environment, "sky:noon");
   EXPECT_EQ(read.view.supersample, 2);
