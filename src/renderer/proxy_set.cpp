@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // PX-9: every proxy has the albedo of the surface that it stands for, the mean over points spread evenly by area, and is drawn in
-// until it shadows as much as that does.
+// until it shadows as much as that does; how far it still bulges out of it is known to the receivers (spheres/receiver_rule.h).
 #include "renderer/proxy_set.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/set_surface.h"
 #include "renderer/shadow_radii.h"
-#include "trace/surface.h"
+#include "renderer/sphere_bulges.h"
 
 namespace gloam {
 
@@ -34,44 +35,6 @@ Scene withoutPictures(const Scene& scene, const SceneSpheres& spheres) {
   return kept;
 }
 
-struct AreaPoint {
-  int mesh;
-  trace::SurfacePoint point;
-};
-
-/// Spread evenly by area over all meshes of a set: strata of the running area, two more coordinates of an additive
-/// recurrence.
-std::vector<AreaPoint> pointsByArea(const Scene& scene, const SphereSet& set, std::size_t count) {
-  struct Triangle {
-    int mesh;
-    int index;
-    double end;
-  };
-  std::vector<Triangle> triangles;
-  double total = 0.0;
-  for (const int m : set.meshes) {
-    const Mesh& mesh = scene.meshes.at(std::size_t(m));
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-      const glm::vec3 a = mesh.positions[mesh.indices[3 * t]], b = mesh.positions[mesh.indices[3 * t + 1]],
-                      c = mesh.positions[mesh.indices[3 * t + 2]];
-      total += double(glm::length(glm::cross(b - a, c - a)));
-      triangles.push_back({m, int(t), total});
-    }
-  }
-  std::vector<AreaPoint> points;
-  if (!(total > 0.0) || !std::isfinite(total)) return points;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double place = total * (double(i) + 0.5) / double(count);
-    while (at + 1 < triangles.size() && triangles[at].end < place) ++at;
-    auto u = float(std::fmod(0.7548776662466927 * double(i + 1), 1.0));
-    auto v = float(std::fmod(0.5698402909980532 * double(i + 1), 1.0));
-    if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-    points.push_back({triangles[at].mesh, {triangles[at].index, u, v}});
-  }
-  return points;
-}
-
 }  // namespace
 
 std::vector<glm::vec3> sphereAlbedos(const Scene& scene, const SphereSet& set) {
@@ -83,7 +46,7 @@ std::vector<glm::vec3> sphereAlbedos(const Scene& scene, const SphereSet& set) {
       set.spheres.empty() ? std::vector<AreaPoint>{} : pointsByArea(scene, set, count);
   for (const AreaPoint& at : points) {
     const Mesh& mesh = scene.meshes[std::size_t(at.mesh)];
-    const glm::vec3 place = set.shape_from_object * trace::interpolate(mesh, mesh.positions, at.point);
+    const glm::vec3 place = placeOf(scene, set, at);
     const glm::vec3 albedo = trace::diffuseAlbedo(scene, mesh, at.point);
     std::size_t nearest = 0;
     float least = INFINITY;
@@ -107,6 +70,7 @@ ProxySet::ProxySet(const Scene& scene, const SceneSpheres& spheres)
     }
     albedos_.push_back(sphereAlbedos(scene, set));
     shares_.push_back(shadowShares(scene, set));
+    bulges_.push_back(sphereBulges(scene, set, shares_.back()));
   }
   flats_ = FlatPatches(scene, spheres, 0, kBlockingPatches);
 }
@@ -125,8 +89,8 @@ std::vector<frame::Proxy> ProxySet::posed(const PosedScene& posed) const {
 std::vector<frame::Proxy> ProxySet::proxiesOf(std::span<const PosedSphere> drawn_in) const {
   std::vector<frame::Proxy> proxies;
   for (const PosedSphere& sphere : drawn_in) {
-    const glm::vec3 albedo = albedos_[std::size_t(sphere.set)][std::size_t(sphere.sphere)];
-    proxies.push_back({sphere.center, sphere.radius, albedo});
+    const auto set = std::size_t(sphere.set), index = std::size_t(sphere.sphere);
+    proxies.push_back({sphere.center, sphere.radius, albedos_[set][index], bulges_[set][index]});
   }
   return proxies;
 }

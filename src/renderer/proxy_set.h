@@ -32,6 +32,7 @@ class ProxySet {
   Scene scene_;                                  // nodes, and places of the vertices that spheres follow
   std::vector<std::vector<glm::vec3>> albedos_;  // [set][sphere]
   std::vector<std::vector<float>> shares_;       // of radii; the same
+  std::vector<std::vector<float>> bulges_;       // of widths; the same
   FlatPatches flats_;
 };
 

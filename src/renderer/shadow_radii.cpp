@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "math/sampling.h"
+#include "renderer/set_surface.h"
 #include "trace/tracer.h"
 
 namespace gloam {
@@ -47,20 +48,6 @@ trace::Tracer tracerOf(const Scene& scene, const SphereSet& set) {
     posed.instances.push_back(std::move(instance));
   }
   return {scene, posed};
-}
-
-/// 1 where faces look outward, -1 where inward.
-float facing(const Scene& scene, const SphereSet& set) {
-  double volume = 0.0;
-  for (const int m : set.meshes) {
-    const Mesh& mesh = scene.meshes.at(std::size_t(m));
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-      const glm::dvec3 a = mesh.positions[mesh.indices[3 * t]], b = mesh.positions[mesh.indices[3 * t + 1]],
-                       c = mesh.positions[mesh.indices[3 * t + 2]];
-      volume += glm::dot(a, glm::cross(b, c));
-    }
-  }
-  return volume < 0.0 ? -1.0f : 1.0f;
 }
 
 /// Whether the object is met on the chord of a line through a sphere: a face within, or one beyond that is seen from behind, so

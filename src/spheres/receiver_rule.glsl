@@ -10,9 +10,9 @@ struct SeenSphere {
   vec3 direction;
 };
 
-const float kBulge = 0.08f, kStandsOut = 0.4f;
+const float kLeastBulge = 0.08f, kMostBulge = 0.5f, kFull = 0.32f;
 
-SeenSphere seenSphere(vec3 receiver, vec3 normal, vec3 center, float radius) {
+SeenSphere seenSphere(vec3 receiver, vec3 normal, vec3 center, float radius, float bulge) {
   SeenSphere seen;
   seen.sin_half_angle = 0.0f;
   seen.direction = normal;
@@ -25,7 +25,8 @@ SeenSphere seenSphere(vec3 receiver, vec3 normal, vec3 center, float radius) {
     seen.direction = d / dist;
     return seen;
   }
-  float standing = 0.5f * (height + radius) * smoothstep(kBulge, kStandsOut, 0.5f * (height + radius) / radius);
+  float nothing = clamp(bulge, kLeastBulge, kMostBulge);
+  float standing = 0.5f * (height + radius) * smoothstep(nothing, nothing + kFull, 0.5f * (height + radius) / radius);
   if (standing <= 0.0f) return seen;
   vec3 along = d - height * normal;
   float held2 = max(dot(along, along), radius * radius - height * height);

@@ -22,8 +22,8 @@ using namespace glm;  // NOLINT: vec3, dot, min … as in GLSL
 
 const glm::vec3 kUp(0.0f, 1.0f, 0.0f);
 
-float seenSin(const glm::vec3& center, float radius) {
-  return seenSphere(glm::vec3(0.0f), kUp, center, radius).sin_half_angle;
+float seenSin(const glm::vec3& center, float radius, float bulge = 0.0f) {
+  return seenSphere(glm::vec3(0.0f), kUp, center, radius, bulge).sin_half_angle;
 }
 
 TEST(ReceiverRule, LeavesSpheresAboveThePlane) {
@@ -57,6 +57,13 @@ TEST(ReceiverRule, WhatBulgesALittleOutOfAWallDoesNotDarkenIt) {
   EXPECT_NEAR(seenSin({3, -0.2f, 0}, 1.0f), 0.4f / std::sqrt(9.16f), 1e-6f);
 }
 
+TEST(ReceiverRule, ASphereThatStandsOutOfAPlateByHalfDoesNotDarkenIt) {
+  for (float x = 0.0f; x < 3.0f; x += 0.05f) EXPECT_EQ(seenSin({x, 0, 0}, 1.0f, 0.5f), 0.0f);
+  // What it stands on is darkened as ever; of a sphere that its surface hardly touches, half counts at least.
+  EXPECT_EQ(seenSin({0.5f, 0.8f, 0}, 1.0f, 0.5f), seenSin({0.5f, 0.8f, 0}, 1.0f));
+  EXPECT_EQ(seenSin({3, 0.2f, 0}, 1.0f, 1.0f), seenSin({3, 0.2f, 0}, 1.0f, 0.5f));
+}
+
 TEST(ReceiverRule, IsContinuous) {
   sampling::Rng random(8);
   float steepest = 0.0f;
@@ -65,7 +72,7 @@ TEST(ReceiverRule, IsContinuous) {
     constexpr int kSteps = 4000;
     float before = -1.0f;
     for (int i = 0; i <= kSteps; ++i) {
-      const float now = seenSin(glm::mix(from, to, float(i) / kSteps), 1.0f);
+      const float now = seenSin(glm::mix(from, to, float(i) / kSteps), 1.0f, float(path) / 300.0f);
       EXPECT_TRUE(now >= 0.0f && now <= 1.0f);
       if (before >= 0.0f) steepest = std::max(steepest, std::abs(now - before));
       before = now;
@@ -90,9 +97,9 @@ TEST(ReceiverRule, ShaderSaysTheSame) {
   for (int i = 0; i < 5000; ++i) {
     const glm::vec3 receiver = random.next3(), normal = sampling::uniformSphere(random.next2());
     const glm::vec3 center = receiver + (random.next3() - 0.5f) * 4.0f;
-    const float radius = 1.2f * random.next();
-    const SeenSphere want = seenSphere(receiver, normal, center, radius);
-    const glsl::SeenSphere got = glsl::seenSphere(receiver, normal, center, radius);
+    const float radius = 1.2f * random.next(), bulge = random.next();
+    const SeenSphere want = seenSphere(receiver, normal, center, radius, bulge);
+    const glsl::SeenSphere got = glsl::seenSphere(receiver, normal, center, radius, bulge);
     EXPECT_NEAR(got.sin_half_angle, want.sin_half_angle, 1e-6f);
     EXPECT_LT(glm::distance(got.direction, want.direction), 1e-5f);
   }

@@ -75,7 +75,8 @@ const std::vector<Option>& options() {
 
 std::vector<ProxyRow> rowsOf(std::span<const frame::Proxy> proxies) {
   std::vector<ProxyRow> rows;
-  for (const frame::Proxy& proxy : proxies) rows.push_back({proxy.center, proxy.radius, proxy.albedo, 0.0f});
+  for (const frame::Proxy& proxy : proxies)
+    rows.push_back({proxy.center, proxy.radius, proxy.albedo, proxy.bulge});
   if (rows.empty()) rows.push_back({});
   return rows;
 }

@@ -18,7 +18,7 @@ void addFlats(uint count, vec3 position, vec3 normal, inout vec4 log0, inout vec
     PatchRow flat_row;
     GLOAM_READ_PATCH(flat_row, flats, i)
     PatchCone cone = patchCone(flat_row, position, normal);
-    SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle);
+    SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle, 0.0);
     float at = shLogBlockerCoordinate(seen.sin_half_angle) * float(kLogEntries - 1);
     int below = min(int(at), kLogEntries - 2);
     vec4 zonal = mix(log_table.at[below], log_table.at[below + 1], at - float(below)) * cone.there;

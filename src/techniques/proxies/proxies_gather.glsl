@@ -34,7 +34,7 @@ bool reaches(vec3 position, ProxyRow proxy) {
 
 /// leaving: light.row.leaving, read once by each receiver.
 void addProxy(inout Gathered sum, vec3 position, vec3 normal, ProxyRow proxy, vec3 leaving[9]) {
-  SeenSphere seen = seenSphere(position, normal, proxy.center, proxy.radius);
+  SeenSphere seen = seenSphere(position, normal, proxy.center, proxy.radius, proxy.bulge);
   float a = seen.sin_half_angle;
   float coordinate = shLogBlockerCoordinate(a);
   float at = coordinate * float(kLogEntries - 1);

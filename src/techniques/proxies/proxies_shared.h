@@ -37,7 +37,7 @@ struct ProxyRow {
   vec3 center;
   float radius;
   vec3 albedo;
-  float unused;
+  float bulge;
 };
 GLOAM_SHARED_SIZE(ProxyRow, 32)
 

@@ -51,7 +51,7 @@ Picture draw(const Scene& scene, const PosedCamera& camera, const std::vector<fr
 /// projection itself, no logarithm.
 glm::vec3 irradianceBehindOne(const ProxyLight& row, const glm::vec3& p, const glm::vec3& n,
                               const frame::Proxy& proxy) {
-  const spheres::SeenSphere seen = spheres::seenSphere(p, n, proxy.center, proxy.radius);
+  const spheres::SeenSphere seen = spheres::seenSphere(p, n, proxy.center, proxy.radius, proxy.bulge);
   sh::Zh blocked = sh::discZonal(4, std::asin(seen.sin_half_angle));
   sh::Sh open = sh::rotateZonal(blocked, seen.direction);
   for (int i = 0; i < 16; ++i) open[i] = -open[i];

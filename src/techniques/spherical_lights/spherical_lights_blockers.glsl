@@ -58,13 +58,13 @@ vec4 averageWeights(float sin_half_angle) {
 /// The head of a SphereRow.
 struct Ball {
   vec3 center;
-  float radius, blocks;
+  float radius, blocks, bulge;
   uint first_listed, listed;
 };
-Ball ballOf(SphereRow row) { return Ball(row.center, row.radius, row.blocks, row.first_listed, row.listed); }
+Ball ballOf(SphereRow row) { return Ball(row.center, row.radius, row.blocks, row.bulge, row.first_listed, row.listed); }
 /// G of a sphere at a receiver.
 Sh4 logOf(vec3 position, vec3 normal, Ball ball) {
-  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
+  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius, ball.bulge);
   return scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * ball.blocks);
 }
 

@@ -52,7 +52,7 @@ void addLevel(Rows& rows, const ObjectRow& object, std::uint32_t number,
     rows.leaves.insert(rows.leaves.end(), leaves.begin(), leaves.end());
     if (!rows.glow.empty()) rows.glow.push_back(meanGlow(rows, leaves));
     rows.spheres.push_back(
-        {bound.center, bound.radius, 1.0f, 0u, 0u, number, first, std::uint32_t(groups.size())});
+        {bound.center, bound.radius, 1.0f, 0.0f, 0u, 0u, number, first, std::uint32_t(groups.size())});
   }
   for (std::size_t i = first; i < rows.spheres.size(); ++i) {
     SphereRow& row = rows.spheres[i];

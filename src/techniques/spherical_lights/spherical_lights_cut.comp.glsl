@@ -36,7 +36,7 @@ shared vec4 scaled_by[kLanes];  // sum, number
 /// Light that a receiver which faces them would have of sphere i, next to what its own object's spheres leave; w: its log.
 vec4 lightOf(vec3 position, vec3 normal, uint i) {
   Ball ball = ballAt(i);
-  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
+  SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius, ball.bulge);
   vec4 disc = discWeights(seen.sin_half_angle);
   float within = logListed(position, normal, i, ball, seen.direction, disc / max(disc.x, 1e-12));
   Sh4 f = averageAt(seen.sin_half_angle, basisAt(seen.direction));

@@ -85,7 +85,7 @@ Gathered gather(vec3 position, vec3 normal) {
     if (patches_taken) blockers = plus(before, whole);
     if (final) blockers = plus(before, patch_logs);
     if (!spheres_done) {
-      seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius);
+      seen = seenSphere(position, normal, spheres.at[i].center, spheres.at[i].radius, spheres.at[i].bulge);
       y = basisAt(seen.direction);
       log_i = scaled(y, logWeights(seen.sin_half_angle));
       log_i = scaled(log_i, spheres.at[i].blocks);

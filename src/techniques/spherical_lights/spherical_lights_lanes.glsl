@@ -9,8 +9,8 @@
 
 Ball ballAt(uint i) {
   Eight row;
-  GLOAM_READ_EIGHT(row, spheres, 10u * i)
-  return Ball(row.a.xyz, row.a.w, row.b.x, floatBitsToUint(row.b.y), floatBitsToUint(row.b.z));
+  GLOAM_READ_EIGHT(row, spheres, 11u * i)
+  return Ball(row.a.xyz, row.a.w, row.b.x, row.b.y, floatBitsToUint(row.b.z), floatBitsToUint(row.b.w));
 }
 
 PatchRow blockingPatch(uint j) {

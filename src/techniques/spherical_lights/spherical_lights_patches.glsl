@@ -24,7 +24,7 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
     PatchRow row = blockingPatch(j);
     PatchCone cone = patchCone(row, position, normal);
     float above = aboveTangent(row, position, normal);
-    SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle);
+    SeenSphere seen = seenSphere(vec3(0.0), normal, cone.direction, cone.sin_half_angle, 0.0);
     sum = plus(sum, scaled(basisAt(seen.direction), logWeights(seen.sin_half_angle) * (cone.there * above)));
     whole = plus(whole, scaled(basisAt(cone.direction), logWeights(cone.sin_half_angle) * cone.there));
   }

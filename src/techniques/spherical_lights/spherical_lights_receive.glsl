@@ -82,7 +82,7 @@ Gathered receive(vec3 position, vec3 normal) {
     LevelRow cut = spheresOf(cluster, o);
     for (uint i = cut.first; i < cut.first + cut.count; ++i) {
       Ball ball = ballAt(i);
-      SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius);
+      SeenSphere seen = seenSphere(position, normal, ball.center, ball.radius, ball.bulge);
       vec4 disc = discWeights(seen.sin_half_angle), bands = disc / max(disc.x, 1e-12);
       Sh4 y = basisAt(seen.direction);
       float within = logListed(position, normal, i, ball, seen.direction, bands);

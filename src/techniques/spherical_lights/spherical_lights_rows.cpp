@@ -52,8 +52,9 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
   rows.words = std::max(1, emission.words);
   for (std::size_t i = 0; i < proxies.size(); ++i) {
     const frame::ProxyEmission& sent = emission.proxies[i];
-    rows.spheres.push_back({proxies[i].center, proxies[i].radius, 1.0f, 0u, 0u, std::uint32_t(sent.object),
-                            std::uint32_t(sent.first), std::uint32_t(sent.count)});
+    rows.spheres.push_back({proxies[i].center, proxies[i].radius, 1.0f, proxies[i].bulge, 0u, 0u,
+                            std::uint32_t(sent.object), std::uint32_t(sent.first),
+                            std::uint32_t(sent.count)});
     if (int(i) == sent.first)
       rows.objects.push_back({middleOf(proxies.subspan(i, std::size_t(sent.count))),
                               std::uint32_t(sent.first), std::uint32_t(sent.count), 0u, 0u});
@@ -109,7 +110,7 @@ void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, 
     const auto index = std::uint32_t(rows.spheres.size());
     rows.glow.resize(rows.spheres.size());
     rows.spheres.push_back(
-        {lamp.position, radius, 0.0f, 0u, 0u, std::uint32_t(rows.objects.size()), index, 1u});
+        {lamp.position, radius, 0.0f, 0.0f, 0u, 0u, std::uint32_t(rows.objects.size()), index, 1u});
     rows.objects.push_back({lamp.position, index, 1u, 0u, 0u});
     SentRow glow{};  // a ball of radiance L has the intensity L pi r^2
     glow.at[0] = lamp.intensity / (3.14159265f * radius * radius) * sh::zonalFactor(0);

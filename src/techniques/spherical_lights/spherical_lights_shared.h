@@ -41,13 +41,14 @@ struct SphereRow {
   vec3 center;
   float radius;
   float blocks;       // 0: a lamp, which stands in nobody's light; 1
+  float bulge;        // of its width, out of the surface that it stands for
   uint first_listed;  // of those of its object that it does not meet (per object), or meets (per sphere)
   uint listed;
   uint object;
   uint first;  // of its object's spheres
   uint count;
 };
-GLOAM_SHARED_SIZE(SphereRow, 40)
+GLOAM_SHARED_SIZE(SphereRow, 44)
 
 struct ObjectRow {
   vec3 center;

@@ -104,7 +104,8 @@ class Twin {
 
  private:
   spheres::SeenSphere see(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
-    return spheres::seenSphere(p, n, rows_.spheres[i].center, rows_.spheres[i].radius);
+    return spheres::seenSphere(p, n, rows_.spheres[i].center, rows_.spheres[i].radius,
+                               rows_.spheres[i].bulge);
   }
 
   /// What rectangles leave of a ball, each alone.

@@ -18,7 +18,7 @@ float logListed(vec3 position, vec3 normal, uint i, Ball ball, vec3 direction, v
     vec3 to_j = other.center - position;
     float far = dot(to_j, to_j);
     bool nearer = far < own || (far == own && j < i);
-    SeenSphere seen = seenSphere(position, normal, other.center, other.radius);
+    SeenSphere seen = seenSphere(position, normal, other.center, other.radius, other.bulge);
     float log_there = dot(logWeights(seen.sin_half_angle), bands * zonalAt(dot(seen.direction, direction)));
     sum += nearer ? log_there : 0.0;
   }
