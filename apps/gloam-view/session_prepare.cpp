@@ -96,8 +96,9 @@ void Session::startBake(const Pick& pick) {
       preparing_ = false;
       if (state.scene == scene) {  // not another one in the meantime
         carryMoves(scene->scene, loaded->scene);
+        if (fittedScene(loaded) != fittedScene(scene)) state.needs = {};
         state.scene = loaded;
-        state.needs = {};
+        state.needs.of = loaded.get();
         resolution.forget();
         measured_.clear();
       }
@@ -120,12 +121,13 @@ void Session::startSpheres(int count, bool emission) {
   const auto scene = state.scene;
   const auto work = [this, scene, count, emission,
                      use_cache = choice_.use_cache](JobConsole& console) -> Jobs::Finish {
+    const LoadedScene& fitted = *fittedScene(scene);
     auto spheres = std::make_shared<const SceneSpheres>(cli::spheresForDrawing(
-        scene->scene, scene->name, use_cache, console, count, nullptr, scene->spheres));
+        fitted.scene, fitted.name, use_cache, console, count, nullptr, fitted.spheres));
     std::shared_ptr<const SceneEmission> sent;
     if (emission) {
       sent = std::make_shared<const SceneEmission>(
-          cli::emissionForDrawing(scene->scene, *spheres, scene->name, use_cache, console));
+          cli::emissionForDrawing(fitted.scene, *spheres, fitted.name, use_cache, console));
     }
     return [this, scene, spheres, sent, count] {
       preparing_ = false;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "view_state.h"
 
+#include <algorithm>
+
 namespace gloam::view {
 namespace {
 
@@ -22,6 +24,18 @@ std::shared_ptr<const LoadedScene> makeLoadedScene(LoadedScene given) {
     loaded->instance_nodes.push_back(instance.node);
   for (const Mesh& mesh : scene.meshes) loaded->mesh_middles.push_back(middleOf(mesh.positions));
   return loaded;
+}
+
+std::shared_ptr<const LoadedScene> fittedScene(const std::shared_ptr<const LoadedScene>& loaded) {
+  if (!loaded->unbaked) return loaded;
+  const Scene &baked = loaded->scene, &before = loaded->unbaked->scene;
+  const auto same = [](const Mesh& a, const Mesh& b) {
+    return a.positions == b.positions && a.indices == b.indices;
+  };
+  const bool fits =
+      baked.nodes.size() == before.nodes.size() &&
+      std::equal(baked.meshes.begin(), baked.meshes.end(), before.meshes.begin(), before.meshes.end(), same);
+  return fits ? loaded->unbaked : loaded;
 }
 
 std::vector<glm::vec3> instancePlaces(const LoadedScene& loaded, const PosedScene& posed) {

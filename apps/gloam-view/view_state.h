@@ -32,6 +32,10 @@ struct LoadedScene {
 /// Fills in what follows from the scene.
 std::shared_ptr<const LoadedScene> makeLoadedScene(LoadedScene given);
 
+/// What spheres are fitted to: what was baked of, so that a bake fits none anew; the scene itself where the bake took its objects
+/// apart or made more of them.
+std::shared_ptr<const LoadedScene> fittedScene(const std::shared_ptr<const LoadedScene>& loaded);
+
 /// A technique with its options.
 struct Pick {
   const TechniqueInfo* info = nullptr;

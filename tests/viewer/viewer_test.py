@@ -113,6 +113,16 @@ class ViewerTest(unittest.TestCase):
         self.assertTrue(result.stderr.startswith("gloam-view: "), result.stderr)
         self.assertIn(says, result.stderr)
 
+    def render(self, *arguments):
+        subprocess.run([GLOAM, "render", *arguments, "--quiet"], cwd=self.folder, env=self.environment, check=True, timeout=120)
+
+    def assert_same(self, one, other):
+        """Two PNGs: of the same size, one value in two hundred more than two steps apart at most."""
+        view, render = (png_size_and_rows(self.folder / name) for name in (one, other))
+        self.assertEqual(view[:2], render[:2])
+        pairs = [(a, b) for u, v in zip(view[2], render[2]) for a, b in zip(u, v)]
+        self.assertLess(sum(abs(a - b) > 2 for a, b in pairs), len(pairs) // 200)
+
     def script(self, steps, *arguments):
         """Plays the steps; what `stats` steps wrote, by name."""
         (self.folder / "steps.json").write_text(json.dumps(steps))
@@ -171,6 +181,48 @@ class ViewerTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["settings"]["order"], 4)
 
+    def test_presets_of_every_technique_draw_what_was_shown(self):
+        """Options that change what is baked or fitted, too: `gloam render --settings` makes the same of them."""
+        options = {"irradiance": {"order": 4}, "prt": {"local_light": "all"}, "proxies": {"spheres": 3, "divisor": 2},
+                   "spherical_lights": {"lamp_radius": 0.1}, "splatting": {"vpls": 64}, "radiance_filter": {"sets": 3}}
+        known = json.loads(subprocess.run([GLOAM, "list", "--techniques", "--json"], env=self.environment, capture_output=True,
+                                          text=True, check=True, timeout=60).stdout)
+        self.assertEqual({t["name"] for t in known["techniques"]}, set(options))
+        lamps = {"splatting"}
+        for scene, names in [(BOX, lamps), ("builtin:balls?count=2&detail=0.25", set(options) - lamps)]:
+            steps = [{"wait": "idle"}]
+            for name in sorted(names):
+                steps += [{"set": {"technique": name}}, {"wait": "idle"}, {"screenshot": f"{name}_plain.png"},
+                          {"set": {f"{name}.{option}": value for option, value in options[name].items()}}, {"wait": "idle"},
+                          {"screenshot": f"{name}.png"}, {"save_preset": f"{name}.json"}]
+            self.script(steps, scene, "--size", "160x120", "--no-panel", "--scale", "1")
+        for name in options:
+            with self.subTest(name):
+                self.render("--settings", f"{name}.json", "-o", "render.png")
+                self.assert_same(f"{name}.png", "render.png")
+        self.assertNotEqual(png_size_and_rows(self.folder / "prt_plain.png"), png_size_and_rows(self.folder / "prt.png"))
+
+    def test_a_bake_fits_no_spheres_anew(self):
+        turns = [step for name in ["prt", "proxies", "prt"] for step in ({"set": {"technique": name}}, {"wait": "idle"})]
+        self.script([{"wait": "idle"}, *turns, {"stats": "after.json"}], "builtin:balls?count=2&detail=0.25", *SMALL, "--scale", "0.2",
+                    "--technique", "proxies", "--proxies.spheres", "3", "--no-cache")
+        after = self.stats("after.json")
+        self.assertEqual(after["technique"], "prt", after["messages"])
+        self.assertEqual(sum("fitting 3 spheres" in line for line in after["messages"]), 1, after["messages"])
+
+    def test_spheres_of_a_file_are_drawn_and_kept_in_presets(self):
+        scene = "builtin:balls?detail=0.25"
+        subprocess.run([GLOAM, "bake", "spheres", scene, "--count", "5", "-o", "few.json", "--quiet"], cwd=self.folder,
+                       env=self.environment, stdout=subprocess.DEVNULL, check=True, timeout=60)
+        self.script([{"wait": "idle"}, {"screenshot": "view.png"}, {"save_preset": "preset.json"},
+                     {"set": {"scene": BOX}}, {"wait": "idle"}, {"drop": "preset.json"}, {"wait": "idle"}, {"screenshot": "back.png"}],
+                    scene, "--technique", "proxies", "--spheres", "few.json", "--size", "192x144", "--no-panel", "--scale", "1")
+        self.assertEqual(json.loads((self.folder / "preset.json").read_text())["spheres"], str(self.folder / "few.json"))
+        self.render("--settings", "preset.json", "-o", "render.png")
+        self.assert_same("view.png", "render.png")
+        self.assert_same("back.png", "render.png")
+        self.refuse(BOX, "--technique", "proxies", "--spheres", "few.json", says="few.json")
+
     def test_what_was_moved_is_in_the_preset(self):
         """`gloam render --settings preset.json` alone draws what the viewer shows."""
         self.script([
@@ -188,15 +240,10 @@ class ViewerTest(unittest.TestCase):
         for name in ["loaded", "back"]:
             self.assertEqual(self.stats(f"{name}.json")["moves"], len(preset["move"]))
         self.assertEqual(self.stats("back.json")["scene"], BOX)
-        subprocess.run([GLOAM, "render", "--settings", "preset.json", "-o", "render.png", "--quiet"], cwd=self.folder,
-                       env=self.environment, check=True, timeout=60)
-        view, render = (png_size_and_rows(self.folder / f"{n}.png") for n in ("view", "render"))
-        self.assertEqual(view[:2], render[:2])
-        pairs = [(a, b) for u, v in zip(view[2], render[2]) for a, b in zip(u, v)]
-        self.assertLess(sum(abs(a - b) > 2 for a, b in pairs), len(pairs) // 200)
-        subprocess.run([GLOAM, "render", BOX, "--size", "640x420", "-o", "still.png", "--quiet"], cwd=self.folder,
-                       env=self.environment, check=True, timeout=60)
-        self.assertNotEqual(png_size_and_rows(self.folder / "still.png")[2], render[2])
+        self.render("--settings", "preset.json", "-o", "render.png")
+        self.assert_same("view.png", "render.png")
+        self.render(BOX, "--size", "640x420", "-o", "still.png")
+        self.assertNotEqual(*(png_size_and_rows(self.folder / name)[2] for name in ("still.png", "render.png")))
 
     def test_orthographic_cameras_survive_presets(self):
         self.script([
@@ -204,13 +251,11 @@ class ViewerTest(unittest.TestCase):
             {"set": {"fov": 40}}, {"wait": "idle"}, {"screenshot": "other.png"}, {"drop": "preset.json"}, {"wait": "idle"},
             {"screenshot": "back.png"}], BOX, *SMALL, "--no-panel", "--scale", "1")
         self.assertEqual(json.loads((self.folder / "preset.json").read_text())["ortho"], 2.5)
-        subprocess.run([GLOAM, "render", "--settings", "preset.json", "-o", "render.png", "--quiet"], cwd=self.folder,
-                       env=self.environment, check=True, timeout=60)
-        view, other, back, render = (png_size_and_rows(self.folder / f"{n}.png") for n in ("view", "other", "back", "render"))
+        self.render("--settings", "preset.json", "-o", "render.png")
+        view, other, back = (png_size_and_rows(self.folder / f"{n}.png") for n in ("view", "other", "back"))
         self.assertEqual(view, back)
         self.assertNotEqual(view, other)
-        pairs = [(a, b) for u, v in zip(view[2], render[2]) for a, b in zip(u, v)]
-        self.assertLess(sum(abs(a - b) > 2 for a, b in pairs), len(pairs) // 200)
+        self.assert_same("view.png", "render.png")
 
     def test_pictures_as_exr_have_all_layers(self):
         self.script([{"wait": "idle"}, {"screenshot": "picture.exr"}, {"wait": "idle"}, {"stats": "end.json"}], BOX, *SMALL,
