@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // SH-8: exponentials by series (PS), optimal linear (OL) and hybrid (HYB) as in Ren et al. 2006, and one that is not in
-// the paper: HYB on an optimal quadratic. exp(f^) = exp(f^ / 2^p)^(2^p), so f is scaled down until a fit of few
+// the paper: HYB on an optimal quadratic, without HYB's jumps. exp(f^) = exp(f^ / 2^p)^(2^p), so f is scaled down until a fit of few
 // coefficients holds, then squared. The mean goes through the squarings too (exp(mean / 2^p) before them), which keeps
 // all numbers near 1 where exp(f^) alone would overflow and exp(mean) vanish. Coefficients: sh_exp_fit.cpp.
 #include <fmt/format.h>
@@ -38,6 +38,17 @@ Sh constant(int order, float value) {
   return one;
 }
 
+/// a 1 + b f^ + c f^ * f^, times `mean`; x = |f^|.
+Sh coreAt(const ExpCore& core, const Sh& f, float x, float mean) {
+  Sh h = core.quadratic ? square(f) : Sh(f.order);
+  h *= mean * core.c(x);
+  Sh linear = f;
+  linear *= mean * core.b(x);
+  h += linear;
+  h[0] += mean * core.a(x) * kSqrt4Pi;
+  return h;
+}
+
 Sh scaleAndSquare(const Sh& f, ExpCore (*coreOf)(int order)) {
   checkOrder(f.order);
   const Isolated isolated(f);
@@ -49,11 +60,14 @@ Sh scaleAndSquare(const Sh& f, ExpCore (*coreOf)(int order)) {
   const float mean = std::exp(isolated.mean * scale);
   Sh scaled = isolated.rest;
   scaled *= scale;
-  Sh h = core.quadratic ? square(scaled) : Sh(f.order);
-  h *= mean * core.c(x);
-  scaled *= mean * core.b(x);
-  h += scaled;
-  h[0] += mean * core.a(x) * kSqrt4Pi;
+  Sh h = coreAt(core, scaled, x, mean);
+  if (const float blend = core.quadratic ? expBlend(x, core.range) : 0.0f; blend > 0.0f) {
+    scaled *= 0.5f;
+    Sh halved = square(coreAt(core, scaled, 0.5f * x, std::sqrt(mean)));
+    h *= 1.0f - blend;
+    halved *= blend;
+    h += halved;
+  }
   for (int i = 0; i < squarings; ++i) h = square(h);
   return h;
 }

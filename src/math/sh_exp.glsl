@@ -32,7 +32,12 @@ int shExpSquarings(float norm, float range) {
 #define GLOAM_SH_SCALE(i) h[i] = scale * f[i];
 #define GLOAM_SH_TIMES_B(i) h[i] *= b;
 #define GLOAM_SH_TAKE(i) h[i] = g[i];
-#define GLOAM_SH_COMBINE(i) h[i] = b * h[i] + c * g[i];
+#define GLOAM_SH_CLEAR(i) less[i] = 0.0f;
+#define GLOAM_SH_COMBINE(i) {                                  \
+    float was = h[i];                                          \
+    h[i] = half_b * was + half_c * g[i] + part * less[i];      \
+    less[i] = b * was + c * g[i];                              \
+  }
 #define GLOAM_SH_FIRST_TERM(i) term[i] = f[i]; rest[i] = f[i]; h[i] = f[i];
 #define GLOAM_SH_NEXT_TERM(i) term[i] = g[i] / float(n); h[i] += term[i];
 
@@ -66,20 +71,39 @@ int shExpSquarings(float norm, float range) {
     GLOAM_SH_REST_##order(GLOAM_SH_TAKE)                               \
   }
 
-// The first round makes a 1 + b h + c h * h, the others square.
-#define GLOAM_SH_EXP_QUADRATIC(order, size)                            \
-  GLOAM_SH_SCALE_DOWN(order, kShExpQuadratic##order)                   \
-  h[0] = 0.0f;                                                         \
-  float c = mean * (0.5f + x * (kShExpQuadratic##order[5] + x * kShExpQuadratic##order[6])); \
-  for (int k = 0; k <= squarings; ++k) {                               \
-    float g[size];                                                     \
-    shProduct##order(h, h, g);                                         \
-    GLOAM_SH_COMBINE(0)                                                \
-    GLOAM_SH_REST_##order(GLOAM_SH_COMBINE)                            \
-    h[0] += a;                                                         \
-    a = 0.0f;                                                          \
-    b = 0.0f;                                                          \
-    c = 1.0f;                                                          \
+/// How much comes from f / 2 squared, below the range: all of it there, so that nothing jumps where squarings change.
+float shExpBlend(float x, float range) {
+  return smoothstep(kShExpBlend * range, range, x);
+}
+
+// The first round makes a 1 + b h + c h * h, the others square. Where two numbers of squarings are blended it makes the same of
+// h / 2, whose square the second round takes `blend` of, and of `less`, which is that of h, the rest.
+#define GLOAM_SH_EXP_QUADRATIC(order, size)                                                      \
+  GLOAM_SH_SCALE_DOWN(order, kShExpQuadratic##order)                                             \
+  float c = mean * (0.5f + x * (kShExpQuadratic##order[5] + x * kShExpQuadratic##order[6]));     \
+  float blend = shExpBlend(x, kShExpQuadratic##order[0]);                                        \
+  float half_a = a, half_b = b, half_c = c, part = 0.0f;                                         \
+  if (blend > 0.0f) {                                                                            \
+    float y = 0.5f * x, half_mean = sqrt(mean);                                                  \
+    half_a = half_mean * (1.0f + y * y * (kShExpQuadratic##order[1] + y * kShExpQuadratic##order[2])) * kShZonal0; \
+    half_b = half_mean * (0.5f + 0.5f * y * (kShExpQuadratic##order[3] + y * kShExpQuadratic##order[4]));          \
+    half_c = half_mean * (0.125f + 0.25f * y * (kShExpQuadratic##order[5] + y * kShExpQuadratic##order[6]));       \
+    ++squarings;                                                                                 \
+  }                                                                                              \
+  float less[size];                                                                              \
+  GLOAM_SH_CLEAR(0)                                                                              \
+  GLOAM_SH_REST_##order(GLOAM_SH_CLEAR)                                                          \
+  h[0] = 0.0f;                                                                                   \
+  for (int k = 0; k <= squarings; ++k) {                                                         \
+    float g[size];                                                                               \
+    shProduct##order(h, h, g);                                                                   \
+    GLOAM_SH_COMBINE(0)                                                                          \
+    GLOAM_SH_REST_##order(GLOAM_SH_COMBINE)                                                      \
+    h[0] += half_a;                                                                              \
+    less[0] += a;                                                                                \
+    a = half_a = b = c = half_b = 0.0f;                                                          \
+    part = k == 0 && blend > 0.0f ? 1.0f - blend : 0.0f;                                         \
+    half_c = 1.0f - part;                                                                        \
   }
 
 #define GLOAM_SH_EXP_LINEAR(order)                                                           \

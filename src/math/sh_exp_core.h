@@ -35,6 +35,13 @@ inline float expShortening(float norm) {
   return norm > kShExpNorm ? kShExpNorm / norm : 1.0f;
 }
 
+/// How much of the quadratic exponential, at |f^| = x below its range, comes from f / 2 squared: 1 at the range, beyond which all
+/// of it does. So nothing jumps where the number of squarings changes.
+inline float expBlend(float x, float range) {
+  const float t = std::clamp((x / range - kShExpBlend) / (1.0f - kShExpBlend), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
 /// How often a norm of up to kShExpNorm is to be halved until it is within the range: the exponent of norm / range.
 inline int expSquarings(float norm, float range) {
   int exponent = 0;

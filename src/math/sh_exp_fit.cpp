@@ -51,11 +51,23 @@ Sh approximate(const Sample& sample, const ExpCore& core) {
   const float scale = std::ldexp(shortening, -squarings), x = sample.norm * scale;
   Sh scaled = sample.rest;
   scaled *= scale;
-  Sh h = core.quadratic ? square(scaled) : Sh(scaled.order);
-  h *= core.c(x);
-  scaled *= core.b(x);
-  h += scaled;
-  h[0] += core.a(x) * kShZonal0;
+  const Sh squared = core.quadratic ? square(scaled) : Sh(scaled.order);
+  const auto coreAt = [&](float part) {
+    Sh h = squared;
+    h *= core.c(part * x) * part * part;
+    Sh linear = scaled;
+    linear *= core.b(part * x) * part;
+    h += linear;
+    h[0] += core.a(part * x) * kShZonal0;
+    return h;
+  };
+  Sh h = coreAt(1.0f);
+  if (const float blend = core.quadratic ? expBlend(x, core.range) : 0.0f; blend > 0.0f) {
+    Sh halved = square(coreAt(0.5f));
+    h *= 1.0f - blend;
+    halved *= blend;
+    h += halved;
+  }
   h *= std::exp(sample.mean * scale);
   for (int i = 0; i < squarings; ++i) h = square(h);
   return h;
@@ -142,7 +154,9 @@ std::string expTablesText() {
       "#ifndef GLOAM_MATH_SH_EXP_TABLES_H\n#define GLOAM_MATH_SH_EXP_TABLES_H\n"
       "#ifdef __cplusplus\nnamespace gloam::sh {\n#endif\n\n"
       "const float kShExpNorm = 32.0f;  // of f^, at most\n"
-      "const int kShExpSquarings = 8;\n\n"
+      "const int kShExpSquarings = 8;\n"
+      "const float kShExpBlend = 0.75f;  // of the quadratic one's range: from where on one more squaring "
+      "comes in\n\n"
       "// Range of |f^|; a2, a3, b1, b2: a = 1 + a2 x^2 + a3 x^3, b = 1 + b1 x + b2 x^2.\n";
   const auto numbers = [](const std::vector<double>& values) {
     std::string list;

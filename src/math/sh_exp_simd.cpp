@@ -65,7 +65,7 @@ void expKernel(int order, const ExpCore& core, std::size_t count, const float* H
     return hn::MulAdd(x, hn::MulAdd(x, hn::Set(d, c2), hn::Set(d, c1)), hn::Set(d, c0));
   };
   const V range = hn::Set(d, core.range), one = hn::Set(d, 1.0f), sqrt_4_pi = hn::Set(d, kShZonal0);
-  Block h, g;
+  Block h, g, halved;
   for (std::size_t item = 0; item < count; item += lanes) {
     const std::size_t first = std::min(item, count - lanes);
     V sum = hn::Zero(d);
@@ -84,19 +84,37 @@ void expKernel(int order, const ExpCore& core, std::size_t count, const float* H
         hn::Mul(shortening, hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), squarings))));
     const V x = hn::Mul(norm, scale);
     const V mean = hn::Exp(d, hn::Div(hn::Mul(hn::LoadU(d, f + first), scale), sqrt_4_pi));
-    const V a = hn::MulAdd(hn::Mul(x, x), hn::MulAdd(x, hn::Set(d, core.a3), hn::Set(d, core.a2)), one);
-    const V b = hn::Mul(mean, polynomial(1.0f, core.b1, core.b2, x));
     hn::Store(hn::Zero(d), d, h.c);
     for (std::size_t i = 1; i < size; ++i)
       hn::Store(hn::Mul(scale, hn::LoadU(d, f + i * stride + first)), d, h.c + i * lanes);
     if (core.quadratic) squareBlock(plan, size, lanes, h, g);
-    const V c = hn::Mul(mean, polynomial(0.5f, core.c1, core.c2, x));
-    for (std::size_t i = 0; i < size; ++i) {
-      V value = hn::Mul(b, hn::Load(d, h.c + i * lanes));
-      if (core.quadratic) value = hn::MulAdd(c, hn::Load(d, g.c + i * lanes), value);
-      hn::Store(value, d, h.c + i * lanes);
+    // a 1 + b p h + c p^2 h * h, times a mean.
+    const auto coreAt = [&](float p, V times, Block& to) {
+      const V y = hn::Mul(hn::Set(d, p), x);
+      const V a = hn::MulAdd(hn::Mul(y, y), hn::MulAdd(y, hn::Set(d, core.a3), hn::Set(d, core.a2)), one);
+      const V b = hn::Mul(hn::Mul(times, hn::Set(d, p)), polynomial(1.0f, core.b1, core.b2, y));
+      const V c = hn::Mul(hn::Mul(times, hn::Set(d, p * p)), polynomial(0.5f, core.c1, core.c2, y));
+      for (std::size_t i = 0; i < size; ++i) {
+        V value = hn::Mul(b, hn::Load(d, h.c + i * lanes));
+        if (core.quadratic) value = hn::MulAdd(c, hn::Load(d, g.c + i * lanes), value);
+        hn::Store(value, d, to.c + i * lanes);
+      }
+      hn::Store(hn::MulAdd(hn::Mul(times, a), sqrt_4_pi, hn::Load(d, to.c)), d, to.c);
+    };
+    const V from = hn::Set(d, kShExpBlend * core.range);
+    if (core.quadratic && !hn::AllFalse(d, hn::Gt(x, from))) {  // expBlend
+      const V t = hn::Min(hn::Max(hn::Div(hn::Sub(x, from), hn::Sub(range, from)), hn::Zero(d)), one);
+      const V blend = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(hn::Set(d, 2.0f), t, hn::Set(d, 3.0f)));
+      coreAt(0.5f, hn::Sqrt(mean), halved);
+      coreAt(1.0f, mean, h);
+      squareBlock(plan, size, lanes, halved, g);
+      for (std::size_t i = 0; i < size * lanes; i += lanes) {
+        const V less = hn::Load(d, h.c + i);
+        hn::Store(hn::MulAdd(blend, hn::Sub(hn::Load(d, g.c + i), less), less), d, h.c + i);
+      }
+    } else {
+      coreAt(1.0f, mean, h);
     }
-    hn::Store(hn::MulAdd(hn::Mul(mean, a), sqrt_4_pi, hn::Load(d, h.c)), d, h.c);
     const int most = hn::GetLane(hn::MaxOfLanes(di, squarings));
     for (int k = 0; k < most; ++k) {
       squareBlock(plan, size, lanes, h, g);

@@ -12,6 +12,7 @@ namespace gloam::sh {
 
 const float kShExpNorm = 32.0f;  // of f^, at most
 const int kShExpSquarings = 8;
+const float kShExpBlend = 0.75f;  // of the quadratic one's range: from where on one more squaring comes in
 
 // Range of |f^|; a2, a3, b1, b2: a = 1 + a2 x^2 + a3 x^3, b = 1 + b1 x + b2 x^2.
 const float kShExpHybrid2[5] = {0.250000f, 0.0397699f, 0.000138400f, -4.97704e-07f, 0.0132658f};
@@ -21,11 +22,11 @@ const float kShExpHybrid5[5] = {0.250000f, -0.0149059f, 0.130935f, 0.155681f, -0
 const float kShExpHybrid6[5] = {0.250000f, -0.00545780f, 0.0682251f, 0.160969f, -0.653805f};
 
 // The same, then c1, c2: c = 1/2 + c1 x + c2 x^2.
-const float kShExpQuadratic2[7] = {2.00000f, 5.48907e-05f, -8.37049e-05f, -0.000288303f, 0.0135931f, -0.000115957f, 0.00378530f};
-const float kShExpQuadratic3[7] = {2.00000f, 0.000341308f, -0.00233762f, -0.00591808f, 0.0253666f, -0.0231970f, 0.00863819f};
-const float kShExpQuadratic4[7] = {2.00000f, 0.00908004f, -0.00719791f, -0.0403996f, 0.0490085f, -0.134077f, 0.0537587f};
-const float kShExpQuadratic5[7] = {1.00000f, -0.000399267f, 0.000172428f, -0.0133334f, 0.0351618f, -0.0893555f, 0.00215823f};
-const float kShExpQuadratic6[7] = {1.00000f, -0.000256535f, 0.000790121f, -0.00152368f, 0.0191119f, -0.0915975f, -0.0276557f};
+const float kShExpQuadratic2[7] = {2.00000f, 3.14449e-05f, -1.94671e-05f, -0.000181957f, 0.0135048f, -0.000548964f, 0.00369135f};
+const float kShExpQuadratic3[7] = {2.00000f, 0.00286427f, -0.00390518f, -0.0214256f, 0.0362323f, -0.0605293f, 0.0330460f};
+const float kShExpQuadratic4[7] = {2.00000f, 0.00697060f, -0.00582732f, -0.0144821f, 0.0304152f, -0.119230f, 0.0453422f};
+const float kShExpQuadratic5[7] = {1.00000f, -0.00632906f, 0.0108161f, 0.0166654f, -0.0175642f, -0.0273141f, -0.104815f};
+const float kShExpQuadratic6[7] = {1.00000f, -0.00288577f, 0.00480154f, -0.0185777f, 0.0444419f, -0.0403614f, -0.100695f};
 
 // a and b of expLinear at |f^| = 0, step, 2 step ...
 const int kShExpLinearEntries = 17;

@@ -121,6 +121,7 @@ TEST(ShExp, OneBlockerIsWhatItsLogCameFrom) {
     }
 }
 
+// The quadratic one not at all: what is left is the step itself, 0.02 % of the norm.
 TEST(ShExp, HardlyJumpsWhereSquaringsChange) {
   for (int order = 3; order <= kMaxOrder; ++order) {
     double hybrid = 0.0, quadratic = 0.0;
@@ -139,7 +140,7 @@ TEST(ShExp, HardlyJumpsWhereSquaringsChange) {
     RecordProperty(fmt::format("hybrid_jump_{}", order), fmt::format("{:.4f}", hybrid));
     RecordProperty(fmt::format("quadratic_jump_{}", order), fmt::format("{:.4f}", quadratic));
     EXPECT_LT(hybrid, 0.03) << order;
-    EXPECT_LT(quadratic, 0.04) << order;
+    EXPECT_LT(quadratic, 0.001) << order;
   }
 }
 
