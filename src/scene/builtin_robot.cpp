@@ -267,12 +267,12 @@ Scene makeRobot(const Detail& detail, NamedValues& values) {
       "back wall",
       shapes::moved(shapes::roundedBox({1.75f, 1.05f, 0.06f}, 0.02f, 1.5f * cell, 2), {0, 1.05f, 0}),
       addPlaster(builder, "back plaster", {0.68f, 0.66f, 0.6f}, {0.1f, 0.36f, 0.42f}, 0.62f, 1.1f),
-      {0, 0.002f, -1.06f});
+      {0, -0.03f, -1.06f});
   builder.place(
       "side wall",
       shapes::moved(shapes::roundedBox({0.06f, 1.05f, 1.37f}, 0.02f, 1.5f * cell, 2), {0, 1.05f, 0}),
       addPlaster(builder, "side plaster", {0.68f, 0.66f, 0.6f}, {0.5f, 0.1f, 0.06f}, 0.62f, 1.1f),
-      {-1.69f, 0.001f, 0.375f});
+      {-1.69f, -0.03f, 0.375f});
   Robot robot(builder, detail, as_skin);
   robot.build();
   robot.animate();

@@ -171,7 +171,7 @@ Scene makeSquirrel(const Detail& detail, NamedValues&) {
   builder.place("back wall",
                 shapes::moved(shapes::roundedBox({3.6f, 1.25f, 0.06f}, 0.02f, 1.5f * cell, 2), {0, 1.25f, 0}),
                 addPlaster(builder, "wall", {0.66f, 0.64f, 0.58f}, {0.2f, 0.42f, 0.4f}, 0.74f, 1.2f),
-                {-0.45f, 0.002f, -1.7f});
+                {-0.45f, -0.03f, -1.7f});
   addBox(builder, path, detail);
   addSquirrel(builder, path, detail);
   const float level = path.endOfBend();
