@@ -32,7 +32,10 @@ void addErrors(ExpErrorRow& row, const LogBlockerTable& table, const SphereGrid&
   const float norm = std::sqrt(dot(log, log) - log[0] * log[0]);
   row.norm += norm;
   row.hybrid_products += expSquarings(norm, hybridCore(row.order).range);
-  row.quadratic_products += 1 + expSquarings(norm, quadraticCore(row.order).range);
+  const float range = quadraticCore(row.order).range;
+  const int squarings = expSquarings(norm, range);
+  const bool blended = expBlend(std::ldexp(norm, -squarings), range) > 0.0f;
+  row.quadratic_products += 1 + squarings + (blended ? 1 : 0);
   row.series4 += meanSquare(expSeries(log, 4), numeric);
   row.series9 += meanSquare(expSeries(log, 9), numeric);
   row.linear += meanSquare(linear, numeric);
