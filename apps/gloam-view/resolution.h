@@ -63,15 +63,22 @@ class Resolution {
 
  private:
   double affordable(const std::string& kind, double window_pixels, bool moving, bool hurry) const {
-    const auto known = costs_.find(keyOf(kind, moving));
-    if (known == costs_.end()) return moving ? 0.25 : 0.71;
-    const double patience_ms = double(hurry ? hurry_ms : moving ? moving_ms : still_ms);
-    return std::sqrt(std::max(patience_ms - kBaseMs, 5.0) / known->second / std::max(window_pixels, 1.0));
+    const double patience_ms = double(hurry ? hurry_ms : moving ? moving_ms : still_ms) - kBaseMs;
+    const auto shareBy = [&](bool small, double unknown) {
+      const auto known = costs_.find(keyOf(kind, small));
+      if (known == costs_.end()) return unknown;
+      return std::sqrt(std::max(patience_ms, 5.0) / known->second / std::max(window_pixels, 1.0));
+    };
+    if (!moving) return shareBy(false, 0.71);
+    const double share = shareBy(true, 0.25);
+    // What small pictures promise of large ones is held to what those took.
+    return share < double(kSmall) ? share
+                                  : std::min(share, std::max(shareBy(false, share), double(kLargestSmall)));
   }
   static std::string keyOf(const std::string& kind, bool small) { return small ? kind + " small" : kind; }
 
   static constexpr double kBaseMs = 8.0, kFewPixels = 4096.0;
-  static constexpr float kSmall = 0.55f;
+  static constexpr float kSmall = 0.55f, kLargestSmall = 0.5f;
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
   std::map<std::string, double> costs_;  ///< milliseconds a pixel
   double learnt_in_ = 0.0;               ///< pixels of the window

@@ -50,6 +50,19 @@ TEST(Resolution, WhatCostsMuchStaysSmall) {
   EXPECT_EQ(settle(resolution, kWindow, 1e-4), 0.5f);
 }
 
+/// A small picture whose pixels come cheap (from what is kept) promises a large one that takes longer than it should.
+TEST(Resolution, WhatMovesIsHeldToWhatLargePicturesTook) {
+  Resolution resolution;
+  resolution.fit(kWindow);
+  resolution.add("t", kWindow * 0.06, 0.25f, 9.0);
+  EXPECT_EQ(resolution.scale("t", kWindow, true), 1.0f);
+  resolution.add("t", kWindow, 1.0f, 250.0);
+  EXPECT_EQ(resolution.scale("t", kWindow, true), 0.6f);        // 90 ms
+  EXPECT_EQ(resolution.scale("t", kWindow, true, true), 0.5f);  // 45 ms, by what small ones took
+  for (int i = 0; i < 8; ++i) resolution.add("t", kWindow, 1.0f, 30.0);
+  EXPECT_EQ(resolution.scale("t", kWindow, true), 1.0f);
+}
+
 TEST(Resolution, AnotherOrderOfSizeForgets) {
   Resolution resolution;
   resolution.fit(kWindow);
