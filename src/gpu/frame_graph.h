@@ -112,6 +112,9 @@ class FrameGraph {
   /// Same size and format: all bits. Else, for colour formats with filtering: scaled, bilinear.
   void copy(const std::string& name, ImageRef from, ImageRef to);
   void copy(const std::string& name, BufferRef from, BufferRef to);
+  /// The pixels of one mip and layer as they are kept, rows from the top without gaps, and back.
+  void copy(const std::string& name, ImageRef from, BufferRef to);
+  void copy(const std::string& name, BufferRef from, ImageRef to);
   /// Brings an imported image into a layout that someone else expects after the frame (presentation, a host
   /// engine).
   void leaveIn(ImageRef image, VkImageLayout layout);

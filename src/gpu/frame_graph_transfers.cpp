@@ -23,6 +23,25 @@ VkOffset3D cornerOf(const ImageRef& ref) {
   return {ref.width(), ref.height(), ref.depth()};
 }
 
+/// Where the pixels of an image stand in a buffer.
+VkBufferImageCopy pixelsOf(const std::string& pass, const ImageRef& image, const BufferRef& buffer) {
+  const std::string place = "pass '" + pass + "'";
+  if (!image || !buffer) throw Error(place, "copies an empty reference");
+  if (image.range().mips != 1 || image.range().layers != 1)
+    throw Error(place, "copies one mip of one layer between '" + image.name() + "' and a buffer");
+  const std::size_t bytes = image.image().layerBytes(image.range().mip);
+  if (bytes != buffer.bytes()) {
+    throw Error(place, "copies '" + image.name() + "', " + std::to_string(bytes) + " bytes, but '" +
+                           buffer.name() + "' has " + std::to_string(buffer.bytes()));
+  }
+  VkBufferImageCopy copy{};
+  copy.bufferOffset = buffer.offset();
+  copy.imageSubresource = layersOf(image);
+  copy.imageExtent = {static_cast<std::uint32_t>(image.width()), static_cast<std::uint32_t>(image.height()),
+                      static_cast<std::uint32_t>(image.depth())};
+  return copy;
+}
+
 }  // namespace
 
 void FrameGraph::clear(const std::string& name, ImageRef image, const ClearColor& value) {
@@ -103,6 +122,28 @@ void FrameGraph::copy(const std::string& name, BufferRef from, BufferRef to) {
         const VkBufferCopy region{from.offset(), to.offset(), from.bytes()};
         if (region.size == 0) return;
         vk.vkCmdCopyBuffer(commands, from.buffer().handle(), to.buffer().handle(), 1, &region);
+      });
+}
+
+void FrameGraph::copy(const std::string& name, ImageRef from, BufferRef to) {
+  const VkBufferImageCopy region = pixelsOf(name, from, to);
+  const VolkDeviceTable& vk = state_->device.vk();
+  state_->addTransfer(
+      name, {{"(from)", from, {}, kTransferRead, true, false}, {"(to)", {}, to, kTransferWrite, false, true}},
+      [=, &vk](VkCommandBuffer commands) {
+        vk.vkCmdCopyImageToBuffer(commands, from.image().handle(), kTransferRead.layout, to.buffer().handle(),
+                                  1, &region);
+      });
+}
+
+void FrameGraph::copy(const std::string& name, BufferRef from, ImageRef to) {
+  const VkBufferImageCopy region = pixelsOf(name, to, from);
+  const VolkDeviceTable& vk = state_->device.vk();
+  state_->addTransfer(
+      name, {{"(from)", {}, from, kTransferRead, true, false}, {"(to)", to, {}, kTransferWrite, false, true}},
+      [=, &vk](VkCommandBuffer commands) {
+        vk.vkCmdCopyBufferToImage(commands, from.buffer().handle(), to.image().handle(),
+                                  kTransferWrite.layout, 1, &region);
       });
 }
 

@@ -9,6 +9,7 @@
 
 #include "shaders/splatting_shaders.h"
 #include "techniques/splatting/splatting_gloss.h"
+#include "techniques/splatting/splatting_host_pass.h"
 #include "techniques/splatting/splatting_lamps.h"
 #include "techniques/splatting/splatting_levels.h"
 
@@ -104,6 +105,13 @@ const std::vector<Option>& options() {
        .maximum = 1.0,
        .help =
            "darkening of what is turned away from the eye, which stands for detail that coarse texels lose"},
+      {.name = "gather",
+       .default_value = std::string("auto"),
+       .choices = {"auto", "host", "device"},
+       .help = "who refines, gathers and interpolates: the host between two passes, or compute passes; auto: "
+               "the host for "
+               "software drivers. Rays, detail, levels to look at, coarser resolutions and other modes take "
+               "compute passes"},
       {.name = "gloss",
        .default_value = false,
        .help = "virtual lights in gloss, too: at every pixel that has some, from every light, seen or not"},
@@ -170,6 +178,17 @@ gpu::ImageRef recordCutoff(gpu::FrameGraph& graph, const frame::FrameInputs& inp
   return light;
 }
 
+/// True: the host does all between virtual lights and irradiance.
+bool isOnHost(const gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Settings& settings,
+              const Plan& plan) {
+  const std::string& gather = settings.choice("gather");
+  const std::string& upsample = settings.choice("upsample");
+  const bool can = plan.finest == 0 && settings.choice("visibility") == "off" &&
+                   (upsample == "surfaces" || upsample == "paper") && settings.number("detail") <= 0.0f &&
+                   !settings.flag("debug") && !inputs.show.starts_with("splatting.");
+  return can && (gather == "host" || (gather == "auto" && graph.device().info().software));
+}
+
 Coverage coverage(const Settings& settings) {
   return {.local_direct = true, .local_indirect = settings.integer("vpls") > 0};
 }
@@ -215,6 +234,18 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
     irradiance = recordCutoff(graph, inputs, vpls, bound, settings.number("radius"));
   } else if ((mode == "full" && !shadowed) || plan.coarsest == 0) {
     irradiance = recordFull(graph, inputs, vpls, bound);
+  } else if (isOnHost(graph, inputs, settings, plan)) {
+    irradiance =
+        recordOnHost(graph, inputs, recordLightSets(graph, vpls), host_,
+                     {.width = inputs.gbuffer.width,
+                      .height = inputs.gbuffer.height,
+                      .coarsest = plan.coarsest,
+                      .thresholds = {settings.number("normal_threshold"), settings.number("depth_threshold")},
+                      .light_threshold = settings.number("light_threshold"),
+                      .cluster_threshold = settings.number("cluster_threshold"),
+                      .bound_kind = bound,
+                      .by_shading_normal = settings.choice("normals") == "shading",
+                      .along_surfaces = settings.choice("upsample") == "surfaces"});
   } else {
     const Thresholds thresholds =
         all_pixels ? Thresholds{}
@@ -226,9 +257,9 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                                          : Upsampling::kBlocks;
     const bool debug = settings.flag("debug");
     const float detail = settings.number("detail");
+    const LightSets lights = recordLightSets(graph, vpls);
     std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
     if (debug) recordRangesToLookAt(graph, inputs, levels);
-    const LightSets lights = recordLightSets(graph, vpls);
     const Subsplats subsplats = recordRefinement(graph, inputs, plan, levels, thresholds, lights);
     const GatherOptions gathering{.paints_levels = upsample == "levels",
                                   .keeps_pixels = debug || (upsample != "surfaces" && upsample != "paper"),

@@ -5,6 +5,7 @@
 // README.md has the rest.
 #pragma once
 
+#include "techniques/splatting/splatting_host.h"
 #include "techniques/technique.h"
 #include "visibility/host_world.h"
 
@@ -20,6 +21,7 @@ class Splatting : public Technique {
 
  private:
   visibility::HostWorld world_;
+  HostSplatting host_;
 };
 
 }  // namespace gloam::splatting
