@@ -168,6 +168,8 @@ int runBake(BakeChoice choice, Console& console) {
   applyLimits(choice.options, choice.limits, console);
   checkBakeChoice(choice);
   Scene scene = loadSceneToDraw(choice.scene, console);
+  const std::optional<Error> of_edges = manifoldFault(choice, scene);
+  if (of_edges && !choice.estimate_only) throw *of_edges;
   remarkUnusedOptions(choice, scene, console);
   remarkUnusedSurfaceOptions(choice.options, choice.surfaces, console);
   const std::vector<int> carriers =
@@ -187,6 +189,7 @@ int runBake(BakeChoice choice, Console& console) {
            : of_transfer;
   const std::optional<Error> fault = memoryFault(choice.options, estimate, of_transfer, !grids.empty());
   if (choice.estimate_only && !console.json) console.print(estimateText(estimate));
+  if (choice.estimate_only && of_edges) console.remark(of_edges->what());
   if (choice.estimate_only && fault) console.remark(fault->what());
   if (choice.estimate_only) return printEstimate(choice, estimate, grids, clouds, console);
   if (fault) throw *fault;
@@ -219,6 +222,10 @@ void addSimulatorOptions(CLI::App& app, BakeChoice& choice) {
          "each root node is an object of its own, which shadows itself alone: objects may move against one "
          "another (prt.local_light)")
       ->group("Transfer");
+  choice.non_manifold_option =
+      app.add_flag("--non-manifold", choice.non_manifold,
+                   "bakes meshes, too, some of whose edges have more than two triangles, as they stand")
+          ->group("Surfaces");
   choice.time_option =
       addNumber(app, "--time", options.time_s, {0.0, 1e6}, "SECONDS", "instant at which the scene is posed")
           ->default_str("0")

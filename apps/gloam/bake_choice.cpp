@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 #include <image/atomic_file.h>
+#include <techniques/prt/prt_bake_edges.h>
 #include <techniques/prt/prt_glossy_state.h>
 
 #include <algorithm>
@@ -62,6 +63,14 @@ void checkBakeChoice(const BakeChoice& choice) {
   if (!choice.estimate_only) checkOutput(choice);
 }
 
+std::optional<Error> manifoldFault(const BakeChoice& choice, const Scene& scene) {
+  if (choice.non_manifold) return std::nullopt;
+  const std::string text = prt::crowdedEdgesText(scene, pose(scene, choice.options.time_s));
+  if (text.empty()) return std::nullopt;
+  return Error(choice.scene.name,
+               text + "; expected two at most, as surfaces have; --non-manifold bakes it as it stands");
+}
+
 void remarkUnusedOptions(const BakeChoice& choice, const Scene& scene, Console& console) {
   const BakeOptions& options = choice.options;
   const bool grids = !choice.neighbourhood.objects.empty();
@@ -93,6 +102,8 @@ void remarkUnusedOptions(const BakeChoice& choice, const Scene& scene, Console& 
       remark(option, "here: no mesh mirrors 10 % of light or more; --glossy on gives all of them matrices");
     }
   }
+  if (isGiven(choice.non_manifold_option) && prt::crowdedEdgesText(scene, posed).empty())
+    remark(choice.non_manifold_option, "here: no edge has more than two triangles");
   if (scene.animations.empty()) remark(choice.time_option, "here: the scene has no animation");
 }
 

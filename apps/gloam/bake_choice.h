@@ -6,6 +6,7 @@
 
 #include <gloam/bake.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,12 @@ struct BakeChoice {
   NeighbourhoodChoice neighbourhood;
   VolumeChoice volumes;
   std::string output, kind = "di", glossy = "auto";
-  bool half_float = false, resume = true, estimate_only = false;
+  bool half_float = false, resume = true, estimate_only = false, non_manifold = false;
   const CLI::Option* directions_option = nullptr;
   const CLI::Option* bounce_directions_option = nullptr;
   const CLI::Option* bounces_option = nullptr;
   const CLI::Option* time_option = nullptr;
+  const CLI::Option* non_manifold_option = nullptr;
   std::vector<const CLI::Option*> of_gloss;  ///< that are of matrices
 
   BakeFileForm fileForm() const {
@@ -42,6 +44,8 @@ struct BakeChoice {
 /// What is wrong with the options whatever the scene: those that contradict each other, a name that cannot be written. Found
 /// before hours of work. Throws Error.
 void checkBakeChoice(const BakeChoice& choice);
+/// What is wrong with a scene some of whose edges have more than two triangles, unless --non-manifold bakes it all the same.
+std::optional<Error> manifoldFault(const BakeChoice& choice, const Scene& scene);
 /// A line for each option that was given and changes nothing, in this scene.
 void remarkUnusedOptions(const BakeChoice& choice, const Scene& scene, Console& console);
 

@@ -136,6 +136,7 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
   report.bounces_s += clouds.seconds;
   *time = timeOf(report);
   console.endProgress();
+  for (const std::string& warning : report.warnings) console.remark(warning);
   baked.environment = scene.environment;
   if (folder) {
     try {

@@ -60,8 +60,9 @@ void addHousing(Boxes& boxes, float inner_x, float outer_x, float opening, float
   boxes.add({low, 0, -z - wall}, {high, top, -z});
   boxes.add({low - 0.02f, top, -z - wall - 0.02f}, {high + 0.02f, top + wall, z + wall + 0.02f});
   const float end = outer_x < inner_x ? low : high - wall, mouth = outer_x < inner_x ? high - wall : low;
-  boxes.add({end, 0, -z}, {end + wall, top, z});
-  if (opening < top - 0.05f) boxes.add({mouth, opening, -z}, {mouth + wall, top, z});
+  const float into = z + 0.013f;  // the side walls: edges that only met theirs would have four triangles
+  boxes.add({end, 0, -into}, {end + wall, top, into});
+  if (opening < top - 0.05f) boxes.add({mouth, opening, -into}, {mouth + wall, top, into});
 }
 
 /// An upright tube with a wall, open above and below.

@@ -199,10 +199,15 @@ class Bake(CliTest):
                 self.assertGreater(used - program, estimate["memory_bytes"] / 1.6, "an estimate that is worth something")
         self.assertEqual(self.path("free.glb").read_bytes(), self.path("capped.glb").read_bytes())
 
-    def test_a_mesh_that_is_no_surface_is_baked(self):
+    def test_a_mesh_that_is_no_surface_is_baked_where_asked_to(self):
         self.path("a.obj").write_text("""v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 2 0 0
 f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
-        self.succeed("bake", "a.obj", *QUICK, "-o", "a.glb")
+        self.refuse("bake", "a.obj", *QUICK, "-o", "a.glb",
+                    says=["a.obj: mesh", "is no manifold: 3 edges have more than two triangles", "expected two at most", "--non-manifold"])
+        self.assertIn("--non-manifold bakes it", self.succeed("bake", "a.obj", "--estimate").err)
+        drawn = self.succeed("render", "a.obj", *SMALL, "--technique", "prt", "--no-cache", "-o", "drawn.exr")
+        self.assertIn("baked as it stands", drawn.err)
+        self.succeed("bake", "a.obj", *QUICK, "--non-manifold", "-o", "a.glb")
         self.succeed("render", "a.glb", *SMALL, "--no-background", "-o", "a.exr")
         self.assertTrue(0 < self.means("a.exr")["G"] < 10)
 
@@ -321,6 +326,7 @@ f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 2 3\nf 1 2 6\nf 3 4 5\n""")
         few = ["--directions", "1024"]
         self.assertIn("--bounce-directions has no effect with --error", remarks(*few, "--error", "0.1"))
         self.assertIn("--bounce-directions are of the same set: 256", remarks("--bounce-directions", "2048"))
+        self.assertIn("--non-manifold has no effect here", remarks("--non-manifold"))
         self.assertIn("--bake-gloss has no effect here: no mesh mirrors", remarks("--bake-gloss", "10"))
         self.assertNotIn("effect", remarks("--bake-gloss", "10", "--glossy", "on", "--bounces", "1"))
         self.assertIn("--bake-gloss has no effect with --glossy off", remarks("--bake-gloss", "10", "--glossy", "off"))

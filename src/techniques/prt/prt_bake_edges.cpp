@@ -38,7 +38,7 @@ std::size_t crowdedEdges(const Mesh& mesh) {
   return crowded;
 }
 
-void warnOfCrowdedEdges(const Scene& scene, const PosedScene& posed, Warnings& warnings) {
+std::string crowdedEdgesText(const Scene& scene, const PosedScene& posed) {
   std::vector<std::uint8_t> seen(scene.meshes.size(), 0);
   std::size_t edges = 0, meshes = 0;
   std::string first;
@@ -51,11 +51,16 @@ void warnOfCrowdedEdges(const Scene& scene, const PosedScene& posed, Warnings& w
     if (++meshes == 1)
       first = mesh.name.empty() ? fmt::format("mesh {}", instance.mesh) : fmt::format("mesh '{}'", mesh.name);
   }
-  if (edges == 0) return;
-  warnings.push_back(
-      fmt::format("{}{} is no manifold: {} edges have more than two triangles; baked as it stands, "
-                  "every vertex by its own normal, backs block",
-                  first, meshes > 1 ? fmt::format(" (and {} more)", meshes - 1) : "", edges));
+  if (edges == 0) return {};
+  return fmt::format("{}{} no manifold: {} more than two triangles", first,
+                     meshes > 1 ? fmt::format(" and {} more are", meshes - 1) : " is",
+                     edges > 1 ? fmt::format("{} edges have", edges) : "1 edge has");
+}
+
+void warnOfCrowdedEdges(const Scene& scene, const PosedScene& posed, Warnings& warnings) {
+  const std::string text = crowdedEdgesText(scene, posed);
+  if (!text.empty())
+    warnings.push_back(text + "; baked as it stands, every vertex by its own normal, backs block");
 }
 
 }  // namespace gloam::prt

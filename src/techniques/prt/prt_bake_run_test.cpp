@@ -277,8 +277,16 @@ TEST(PrtBake, EdgesOfMoreThanTwoTrianglesAreCounted) {
   BakeReport report;
   bakeTransfer(sceneOf(fins), shadowed(3, 256), {}, &report);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].find("mesh 'fins' is no manifold: 1 edges"), std::string::npos)
+  EXPECT_NE(report.warnings[0].find("mesh 'fins' is no manifold: 1 edge has"), std::string::npos)
       << report.warnings[0];
+}
+
+// `gloam bake` refuses what is none.
+TEST(PrtBake, BuiltInScenesAreManifold) {
+  for (const BuiltinScene& built_in : builtinScenes()) {
+    const Scene scene = loadScene(std::string("builtin:") + built_in.name + "?detail=0.25");
+    EXPECT_EQ(crowdedEdgesText(scene, pose(scene)), "") << built_in.name;
+  }
 }
 
 }  // namespace
