@@ -285,7 +285,7 @@ TEST(PrtBake, EdgesOfMoreThanTwoTrianglesAreCounted) {
 TEST(PrtBake, BuiltInScenesAreManifold) {
   for (const BuiltinScene& built_in : builtinScenes()) {
     const Scene scene = loadScene(std::string("builtin:") + built_in.name + "?detail=0.25");
-    EXPECT_EQ(crowdedEdgesText(scene, pose(scene)), "") << built_in.name;
+    EXPECT_EQ(crowdedEdgesText(scene, pose(scene, 0.0f)), "") << built_in.name;
   }
 }
 
