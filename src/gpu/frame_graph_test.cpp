@@ -398,6 +398,27 @@ TEST(FrameGraph, CopiesScaleWhereSizesDiffer) {
   EXPECT_EQ(same.image().downloadFloats(), (std::vector<float>{0, 2, 4, 6, 2, 4, 6, 8}));
 }
 
+TEST(FrameGraph, PixelsGoIntoBuffersAndBack) {
+  FrameGraph graph(testDevice());
+  graph.begin();
+  const auto image =
+      graph.create("test.image", ImageDesc{.format = VK_FORMAT_R32_SFLOAT, .width = 3, .height = 2});
+  const auto same = graph.create("test.same", image.image().desc());
+  const auto buffer = graph.create("test.buffer", BufferDesc{.bytes = 6 * 4, .host_visible = true});
+  const auto small = graph.create("test.small", BufferDesc{.bytes = 5 * 4});
+  graph.host("test.host").write(image).run([&](HostAccess& host) {
+    host.uploadFloats(image, std::vector<float>{1, 2, 3, 4, 5, 6});
+  });
+  graph.copy("test.copy", image, buffer);
+  graph.host("test.double").read(buffer).write(buffer).run([&](HostAccess& host) {
+    for (float& value : host.map<float>(buffer)) value *= 2.0f;
+  });
+  graph.copy("test.copy", buffer, same);
+  EXPECT_THROW(graph.copy("test.copy", image, small), Error);
+  graph.execute();
+  EXPECT_EQ(same.image().downloadFloats(), (std::vector<float>{2, 4, 6, 8, 10, 12}));
+}
+
 TEST(FrameGraph, TimersAreThereOnRequestAndSumByName) {
   FrameGraph graph(testDevice());
   graph.begin();
