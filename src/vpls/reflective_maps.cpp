@@ -20,6 +20,7 @@ namespace gloam::vpls {
 
 namespace {
 
+constexpr float kNearest_m = 1e-3f;       ///< of what a lamp lights; nearer still in small scenes
 constexpr float kWidestSpotRad = 1.05f;   ///< to each side; wider ones get a cube
 constexpr int kColumns = 6;               ///< of the atlas
 constexpr std::size_t kViewStride = 256;  ///< where uniform blocks may begin on any device
@@ -47,7 +48,7 @@ frame::FrameView perspectiveView(const glm::vec3& eye, const glm::vec3& forward,
                                  const glm::vec3& low, const glm::vec3& high, int size) {
   PosedCamera camera;
   camera.camera.vertical_fov_rad = 2.0f * half_angle_rad;
-  camera.camera.z_near = 1e-4f * std::max(glm::length(high - low), 1e-3f);
+  camera.camera.z_near = std::min(1e-4f * std::max(glm::length(high - low), 1e-3f), kNearest_m);
   camera.world_from_view = steadyAxes(forward, eye);
   return frame::makeView(camera, size, size, low, high);
 }

@@ -233,6 +233,48 @@ TEST(Vpls, WhatIsAskedForBadlyHasAnAnswer) {
   EXPECT_EQ(away.count, 0u);
 }
 
+// Spots wider than a hemisphere light by a cube of maps: the same closed form.
+TEST(Vpls, FluxOfSpotsWiderThanAHemisphere) {
+  for (const float outer : {90.0f, 120.0f, 180.0f}) {
+    Scene scene = closedBox(glm::vec3(0.5f), {0.3f, -0.2f, 0.5f});
+    scene.lights.at(0) = lampOf(Light::Type::kSpot, 0.5f * outer, outer);
+    const float cos_inner = std::cos(glm::radians(0.5f * outer)), cos_outer = std::cos(glm::radians(outer));
+    const glm::vec3 want = kPi * kIntensity * ((1.0f - cos_inner) + (cos_inner - cos_outer) / 3.0f);
+    expectNear(make(scene, {.count = 600, .map_size = 128}).flux, want, 0.01f,
+               std::to_string(outer) + " degrees");
+  }
+}
+
+// A lamp in a solid thing lights that from inside and nothing else.
+TEST(Vpls, ALampInsideAWallLightsTheWallAlone) {
+  Scene scene = planeUnder(lampOf(Light::Type::kPoint), glm::vec3(0.5f), 1.0f, 3.0f);
+  Mesh box = shapes::roundedBox({0.4f, 0.4f, 0.4f}, 0.05f, 0.1f, 2);
+  for (glm::vec3& p : box.positions) p.y += 1.0f;
+  box.material = 0;
+  scene.meshes.push_back(box);
+  scene.nodes.at(0).meshes.push_back(1);
+  const Made made = make(scene, {.count = 600, .map_size = 128});
+  EXPECT_GT(made.count, 0u);
+  for (std::uint32_t i = 0; i < made.count; ++i) {
+    const VplRow& row = made.rows[i];
+    EXPECT_LT(glm::distance(row.position, glm::vec3(0, 1, 0)), 0.71f);
+    EXPECT_GT(glm::dot(row.normal, glm::vec3(0, 1, 0) - row.position), 0.0f);
+  }
+  expectNear(made.flux, 4.0f * kPi * kIntensity * 0.5f, 0.02f, "inside");
+}
+
+// What is near to a lamp is lit however far the scene reaches.
+TEST(Vpls, LampsLightWhatIsNearInScenesOfAnySize) {
+  for (const float half : {50.0f, 1e4f, 1e6f}) {
+    const Made made = make(planeUnder(lampOf(Light::Type::kSpot, 20.0f, 40.0f), glm::vec3(1.0f), 1.0f, half),
+                           {.count = 64});
+    const float cos_inner = std::cos(glm::radians(20.0f)), cos_outer = std::cos(glm::radians(40.0f));
+    const glm::vec3 want = 2.0f * kPi * kIntensity * ((1.0f - cos_inner) + (cos_inner - cos_outer) / 3.0f);
+    expectNear(made.flux, want, 0.01f, std::to_string(half) + " m");
+    for (std::uint32_t i = 0; i < made.count; ++i) EXPECT_NEAR(made.rows[i].position.y, 0.0f, 1e-3f) << half;
+  }
+}
+
 TEST(Vpls, AHundredThousandLightsAreThatMany) {
   const Made made =
       make(planeUnder(lampOf(Light::Type::kSpot, 39.0f, 40.0f)), {.count = 100000, .map_size = 64});
