@@ -109,7 +109,7 @@ std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneS
   std::vector<std::string> names;
   for (const SphereSet& set : spheres.sets) {
     const bool any = std::ranges::any_of(set.meshes, [&](int mesh) { return glows(scene, mesh); });
-    if (any && set.spheres.empty()) names.push_back(set.name);
+    if (any && set.spheres.empty() && set.deforms) names.push_back(set.name);
   }
   return names;
 }

@@ -33,7 +33,8 @@ std::vector<Contender> planContenders(const std::string& list, const TechniqueCh
 /// Every technique once, none of them named.
 std::vector<Contender> allContenders(const TechniqueChoice& common);
 
-/// Names of things that glow and have no spheres (flat ones): what lives by spheres has nothing of their light.
+/// Names of things that glow, have no spheres and deform: what lives by spheres has nothing of their light (that of rigid ones is
+/// sent by rectangles).
 std::vector<std::string> emittersWithoutSpheres(const Scene& scene, const SceneSpheres& spheres);
 
 /// The light that it computes with its options.

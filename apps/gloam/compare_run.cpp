@@ -67,7 +67,7 @@ void drawAll(Comparison& work, const Progress& progress, Console& console) {
     result.notes = std::move(drawn.warnings);
     if (contender.technique->needs_emission && coverageOf(contender).emitter_direct) {
       for (const std::string& name : work.dark_emitters)
-        result.notes.push_back(fmt::format("light of '{}' is missing: it has no spheres", name));
+        result.notes.push_back(fmt::format("light of '{}' is missing: it has no spheres, and deforms", name));
     }
     if (contender.technique->needs_bake) {
       const CompareStage::Bake* bake = work.stage.bakeFor(contender);

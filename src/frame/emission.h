@@ -36,6 +36,7 @@ struct Patch {
   glm::vec3 half_u{0.0f}, half_v{0.0f};  ///< from its middle to the middle of its sides
   glm::vec3 normal{0.0f};                ///< unit; it sends to that side
   glm::vec3 albedo{0.5f};
+  glm::vec3 glow{0.0f};  ///< radiance, of those that shine by themselves
 };
 
 /// Valid as long as who posed it keeps it.
@@ -47,7 +48,7 @@ struct Emission {
   int words = 0;
   std::vector<std::uint32_t> meets;
   bool glows = false;  ///< any
-  std::vector<Patch> sending_patches, blocking_patches;
+  std::vector<Patch> sending_patches, blocking_patches, glowing_patches;
 };
 
 }  // namespace gloam::frame

@@ -119,7 +119,7 @@ EmissionSet::EmissionSet(const Scene& scene, const SceneSpheres& spheres, const 
     set.levels = levelsOf(given);
     sets_.push_back(std::move(set));
   }
-  flats_ = FlatPatches(scene, spheres, kSendingPatches, kBlockingPatches);
+  flats_ = FlatPatches(scene, spheres, kSendingPatches, kBlockingPatches, kGlowingPatches);
 }
 
 frame::EmissionPoint EmissionSet::place(const Point& point, const Instance& instance,

@@ -136,7 +136,7 @@ TEST(EmissionSet, ThinThingsBlockAsOneSide) {
   spheres.sets[0].receive_only = "flat";
   const PosedScene posed = pose(scene, 0.0f);
   float area = 0.0f;
-  for (const frame::Patch& patch : FlatPatches(scene, spheres, 0, kBlockingPatches).blockers(posed)) {
+  for (const frame::Patch& patch : FlatPatches(scene, spheres, 0, kBlockingPatches, 0).blockers(posed)) {
     if (std::abs(patch.normal.y) > 0.9f) area += 4.0f * glm::length(glm::cross(patch.half_u, patch.half_v));
   }
   EXPECT_NEAR(area, 64.0f, 3.0f);

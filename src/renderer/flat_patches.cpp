@@ -11,72 +11,27 @@
 #include <map>
 #include <tuple>
 
+#include "renderer/flat_points.h"
 #include "scene/transforms.h"
-#include "trace/surface.h"
 
 namespace gloam {
 
 namespace {
 
-constexpr int kPoints = 20000;         // of all things together
 constexpr float kThin = 0.2f;          // thickness over width of what blocks as one side
 constexpr float kLeastFilled = 0.02f;  // of a box's side squared
 
-struct SurfacePoint {
-  glm::vec3 place, normal, albedo;
-  float area;
-};
-
-/// Of one mesh in the world; the same additive recurrence within each stratum of the running area.
-std::vector<SurfacePoint> pointsOf(const Scene& scene, const Instance& instance, double area_each) {
-  const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-  std::vector<SurfacePoint> points;
-  double running = 0.0, next = 0.5 * area_each;
-  std::uint32_t count = 0;
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    glm::vec3 p[3];
-    for (std::size_t c = 0; c < 3; ++c)
-      p[c] = glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[mesh.indices[3 * t + c]], 1.0f));
-    const glm::vec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
-    const float size = glm::length(across);
-    if (!(size > 0.0f)) continue;
-    running += 0.5 * double(size);
-    for (; next < running; next += area_each) {
-      ++count;
-      auto u = float(std::fmod(0.7548776662466927 * double(count), 1.0));
-      auto v = float(std::fmod(0.5698402909980532 * double(count), 1.0));
-      if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-      const float mirrored = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f ? -1.0f : 1.0f;
-      points.push_back({(1.0f - u - v) * p[0] + u * p[1] + v * p[2], mirrored / size * across,
-                        trace::reflectance(scene, mesh, {int(t), u, v}), float(area_each)});
-    }
-  }
-  return points;
-}
-
-double areaOf(const Mesh& mesh, const glm::mat4& world_from_object) {
-  double area = 0.0;
-  const glm::mat3 m(world_from_object);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const glm::vec3 a = m * mesh.positions[mesh.indices[i]], b = m * mesh.positions[mesh.indices[i + 1]],
-                    c = m * mesh.positions[mesh.indices[i + 2]];
-    area += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
-  }
-  return area;
-}
-
 /// Points of one box.
 struct Box {
-  glm::vec3 place{0.0f}, normal{0.0f}, albedo{0.0f};
+  glm::vec3 place{0.0f}, normal{0.0f}, albedo{0.0f}, emission{0.0f};
   glm::vec2 low{INFINITY}, high{-INFINITY};
   float depth = 0.0f, area = 0.0f;
 };
 
-std::vector<frame::Patch> patchesOf(const std::vector<SurfacePoint>& points, const glm::mat3& axes,
-                                    float side) {
+std::vector<frame::Patch> patchesOf(const std::vector<FlatPoint>& points, const glm::mat3& axes, float side) {
   std::map<std::tuple<int, int, int, int>, Box> boxes;
   const glm::mat3 to_own = glm::transpose(axes);
-  for (const SurfacePoint& point : points) {
+  for (const FlatPoint& point : points) {
     const glm::vec3 q = to_own * point.place, m = to_own * point.normal, size = glm::abs(m);
     const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const int u = (w + 1) % 3, v = (w + 2) % 3;
@@ -85,6 +40,7 @@ std::vector<frame::Patch> patchesOf(const std::vector<SurfacePoint>& points, con
     box.low = glm::min(box.low, {q[u], q[v]}), box.high = glm::max(box.high, {q[u], q[v]});
     box.depth += point.area * q[w], box.area += point.area;
     box.normal += point.area * point.normal, box.albedo += point.area * point.albedo;
+    box.emission += point.area * point.emission;
   }
   std::vector<frame::Patch> patches;
   for (const auto& [key, box] : boxes) {
@@ -100,6 +56,7 @@ std::vector<frame::Patch> patchesOf(const std::vector<SurfacePoint>& points, con
     patch.half_u = scale * half.x * along;
     patch.half_v = scale * half.y * glm::cross(patch.normal, along);
     patch.albedo = box.albedo / box.area;
+    patch.glow = box.emission / box.area;
     patches.push_back(patch);
   }
   return patches;
@@ -145,7 +102,8 @@ void keepOneOfPairs(std::vector<frame::Patch>& patches, const glm::mat4& world_f
 
 }  // namespace
 
-FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers) {
+FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int senders, int blockers,
+                         int glowing) {
   std::vector<bool> casts(scene.nodes.size(), false);
   for (const SphereSet& set : spheres.sets) {
     for (const int node : set.nodes)
@@ -166,11 +124,18 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
     things_.push_back({.node = instance.node, .mesh = instance.mesh, .copy = copy});
   }
   if (instances.empty()) return;
-  std::vector<std::vector<SurfacePoint>> points;
-  for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kPoints));
-  const auto fill = [&](int most, std::vector<frame::Patch> Placed::*list) {
-    if (most <= 0) return;
-    for (float side = std::sqrt(float(area) / float(most));; side *= 1.15f) {
+  std::vector<std::vector<FlatPoint>> points;
+  for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kFlatPoints));
+  const auto fill = [&](const std::vector<std::vector<FlatPoint>>& points, int most,
+                        std::vector<frame::Patch> Placed::*list) {
+    float area = 0.0f;
+    int things = 0;
+    for (const std::vector<FlatPoint>& own : points) {
+      things += own.empty() ? 0 : 1;
+      for (const FlatPoint& point : own) area += point.area;
+    }
+    if (most <= 0 || !(area > 0.0f)) return;
+    for (float side = std::sqrt(area / float(most));; side *= 1.15f) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < instances.size(); ++i) {
         const glm::mat4& matrix = instances[i]->world_from_object;
@@ -179,12 +144,12 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
         for (frame::Patch& patch : patches) patch = moved(patch, glm::inverse(matrix));
         count += patches.size();
       }
-      if (int(count) <= std::max(most, 6 * int(instances.size())) || side > 1e6f * std::sqrt(float(area)))
-        return;
+      if (int(count) <= std::max(most, 6 * things) || side > 1e6f * std::sqrt(area)) return;
     }
   };
-  fill(senders, &Placed::senders);
-  fill(blockers, &Placed::blockers);
+  fill(points, senders, &Placed::senders);
+  fill(points, blockers, &Placed::blockers);
+  if (glowing > 0) fill(shiningPoints(scene, posed, instances), glowing, &Placed::glowing);
   const glm::vec3 middle = 0.5f * (posed.bounds_min + posed.bounds_max);
   std::vector<float> areas;
   for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -216,6 +181,8 @@ void FlatPatches::pose(const PosedScene& posed, frame::Emission& emission) const
         emission.sending_patches.push_back(moved(patch, instance.world_from_object));
       for (const frame::Patch& patch : thing.blockers)
         emission.blocking_patches.push_back(moved(patch, instance.world_from_object));
+      for (const frame::Patch& patch : thing.glowing)
+        emission.glowing_patches.push_back(moved(patch, instance.world_from_object));
       break;
     }
   }

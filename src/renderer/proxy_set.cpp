@@ -72,7 +72,7 @@ ProxySet::ProxySet(const Scene& scene, const SceneSpheres& spheres)
     shares_.push_back(shadowShares(scene, set));
     bulges_.push_back(sphereBulges(scene, set, shares_.back()));
   }
-  flats_ = FlatPatches(scene, spheres, 0, kBlockingPatches);
+  flats_ = FlatPatches(scene, spheres, 0, kBlockingPatches, 0);
 }
 
 std::vector<PosedSphere> ProxySet::drawnIn(const PosedScene& posed) const {

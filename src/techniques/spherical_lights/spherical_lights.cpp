@@ -211,6 +211,7 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   warnOfMeetingObjects(rows, inputs.warnings);
   const bool balls = lampsAreBalls(inputs, settings);
   if (balls) addLamps(rows, inputs.shadow_maps.lights, settings.number("lamp_radius"), inputs.warnings);
+  addGlowing(rows, inputs.emission->glowing_patches);
   if (!settings.flag("flats")) rows.sending_patches.clear(), rows.blocking_patches.clear();
   if (!settings.flag("indirect")) rows.sending_patches.clear();
   addPatchPoints(rows);

@@ -7,12 +7,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "techniques/spherical_lights/spherical_lights_tables.h"
 
 namespace gloam::spherical_lights {
 
 namespace {
+
+constexpr float kPi = 3.14159265f;
 
 /// Middle of the box round an object's spheres.
 glm::vec3 middleOf(std::span<const frame::Proxy> proxies) {
@@ -40,6 +43,18 @@ SentRow glowOf(const frame::ProxyEmission& emission) {
 
 PatchRow patchRow(const frame::Patch& patch) {
   return {patch.center, patch.half_u, patch.half_v, patch.normal, patch.albedo};
+}
+
+/// One that shines and stands in nobody's light.
+void addBall(Rows& rows, const glm::vec3& center, float radius, const SentRow& glow) {
+  const auto index = std::uint32_t(rows.spheres.size());
+  rows.glow.resize(rows.spheres.size());
+  rows.spheres.push_back({center, radius, 0.0f, 0.0f, 0u, 0u, std::uint32_t(rows.objects.size()), index, 1u});
+  rows.objects.push_back({center, index, 1u, 0u, 0u});
+  rows.glow.push_back(glow);
+  rows.senders.push_back({});
+  rows.points.resize(rows.points.size() + std::size_t(kDirections));
+  rows.meets.resize(rows.meets.size() + std::size_t(rows.words), 0u);
 }
 
 }  // namespace
@@ -107,23 +122,26 @@ void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, 
       ++within;  // no order of centres tells that all of the object stands before it
       continue;
     }
-    const auto index = std::uint32_t(rows.spheres.size());
-    rows.glow.resize(rows.spheres.size());
-    rows.spheres.push_back(
-        {lamp.position, radius, 0.0f, 0.0f, 0u, 0u, std::uint32_t(rows.objects.size()), index, 1u});
-    rows.objects.push_back({lamp.position, index, 1u, 0u, 0u});
     SentRow glow{};  // a ball of radiance L has the intensity L pi r^2
-    glow.at[0] = lamp.intensity / (3.14159265f * radius * radius) * sh::zonalFactor(0);
-    rows.glow.push_back(glow);
-    rows.senders.push_back({});
-    rows.points.resize(rows.points.size() + std::size_t(kDirections));
-    rows.meets.resize(rows.meets.size() + std::size_t(rows.words), 0u);
+    glow.at[0] = lamp.intensity / (kPi * radius * radius) * sh::zonalFactor(0);
+    addBall(rows, lamp.position, radius, glow);
   }
   if (within > 0)
     warnings.push_back(
         fmt::format("spherical_lights.lamp_radius: {} lamp{} within the spheres of an object, which hide {}; "
                     "with 0, shadow maps tell what gets out",
                     within, within == 1 ? " stands" : "s stand", within == 1 ? "it" : "them"));
+}
+
+void addGlowing(Rows& rows, std::span<const frame::Patch> patches) {
+  for (const frame::Patch& patch : patches) {
+    const float area = 4.0f * glm::length(glm::cross(patch.half_u, patch.half_v));
+    if (!(area > 0.0f)) continue;
+    const sh::Sh cosine = sh::rotateZonal(sh::clampedCosine(4), patch.normal);
+    SentRow glow{};
+    for (int i = 0; i < 16; ++i) glow.at[i] = patch.glow * cosine[i];
+    addBall(rows, patch.center, std::sqrt(area / kPi), glow);
+  }
 }
 
 void warnOfMeetingObjects(const Rows& rows, Warnings& warnings) {

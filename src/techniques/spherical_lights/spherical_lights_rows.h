@@ -41,6 +41,9 @@ void addPatchPoints(Rows& rows);
 /// within an object. Lamps of other kinds are left out.
 void addLamps(Rows& rows, std::span<const frame::LightRow> lamps, float radius, Warnings& warnings);
 
+/// SL-9: what is flat and shines, rectangle by rectangle as balls of its area that send as a disc does, along its normal with the cosine.
+void addGlowing(Rows& rows, std::span<const frame::Patch> patches);
+
 /// SL-6: fills each sphere's list with those of its object that it does not meet (kPerObject), or those others that it meets.
 /// Per sphere, each
 /// then counts as an object.

@@ -416,6 +416,33 @@ TEST(SphericalLights, LampsOfARadiusAreBalls) {
   EXPECT_EQ(draw(scene, frame::kAbove, Balls({}), {{"lamp_radius", "0"}}).direct[4 * middle], 0.0f);
 }
 
+// SL-9: a pane sends L A cos cos / d^2, to the side that it faces.
+TEST(SphericalLights, PanesShineAsDiscsDo) {
+  const Scene scene = frame::planeScene("uniform");
+  const Picture dark = draw(scene, frame::kAbove, Balls({}));
+  Balls lit({}), away({});
+  frame::Patch pane{
+      .center = {0, 2.5f, 0}, .half_u = {0.15f, 0, 0}, .half_v = {0, 0, 0.1f}, .normal = {0, -1, 0}};
+  pane.glow = {40.0f, 20.0f, 10.0f};
+  lit.emission.glowing_patches = {pane};
+  pane.normal = {0, 1, 0};
+  away.emission.glowing_patches = {pane};
+  const Picture got = draw(scene, frame::kAbove, lit), none = draw(scene, frame::kAbove, away);
+  float brightest = 0.0f;
+  for (std::size_t i = 0; i < got.pixels(); i += 5) {
+    const glm::vec3 to = pane.center - Picture::at(got.position, i);
+    const float d2 = glm::dot(to, to), cosine = to.y / std::sqrt(d2);
+    for (int c = 0; c < 3; ++c) {
+      const float want = pane.glow[c] * 0.06f * cosine * cosine / d2;
+      EXPECT_NEAR(got.direct[4 * i + std::size_t(c)] - dark.direct[4 * i + std::size_t(c)], want,
+                  0.025f * want + 0.006f);
+      EXPECT_NEAR(none.direct[4 * i + std::size_t(c)], dark.direct[4 * i + std::size_t(c)], 0.006f);
+      brightest = std::max(brightest, want);
+    }
+  }
+  EXPECT_GT(brightest, 0.3f);
+}
+
 TEST(SphericalLights, ValuesOutOfRangeAreRefused) {
   Settings settings(info().options);
   EXPECT_THROW(settings.set("spheres", "5000"), Error);
