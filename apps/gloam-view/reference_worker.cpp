@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "reference_worker.h"
 
+#include <reference/reference_file.h>
+
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "surface_mask.h"
 
 namespace gloam::view {
 namespace {
@@ -11,6 +16,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double kPublishSeconds = 0.7;
 constexpr const char* kPlace = "reference";
+const std::vector<std::string> kRgb = {"R", "G", "B"};
+
+/// Infinite where it is not known yet.
+double noiseOf(const LayeredImage& picture) {
+  const auto variance = picture.attributes.find(reference::kVariance);
+  if (variance == picture.attributes.end()) return std::numeric_limits<double>::infinity();
+  return cli::relativeNoise(std::stod(variance->second), picture.image("", kRgb, kPlace),
+                            cli::surfaceMask(picture, kPlace))
+      .value_or(0.0);
+}
 
 }  // namespace
 
@@ -115,7 +130,7 @@ void ReferenceWorker::trace(const Request& request) {
     ReferenceView view;
     view.layers = std::make_shared<const LayeredImage>(tracer.image());
     view.samples = tracer.samples();
-    view.noise = tracer.noise();
+    view.noise = noiseOf(*view.layers);
     view.seconds = std::chrono::duration<double>(now - started).count();
     publish(std::move(view));
     shown = Clock::now();
@@ -133,8 +148,12 @@ void ReferenceWorker::publish(ReferenceView view) {
   view.error.reset();
   if (drawn && drawn->left.layers && drawn->width == view.layers->width &&
       drawn->height == view.layers->height) {
-    const Image ours = drawn->left.layers->image("", {"R", "G", "B"}, kPlace);
-    view.error = measure(ours, view.layers->image("", {"R", "G", "B"}, kPlace));
+    // As `gloam compare` measures: on surfaces, as light that is seen itself is the same in both.
+    const Image ours = drawn->left.layers->image("", kRgb, kPlace),
+                truth = view.layers->image("", kRgb, kPlace);
+    const Image mask = cli::surfaceMask(*view.layers, kPlace);
+    if (std::ranges::find(mask.pixels, 1.0f) != mask.pixels.end())
+      view.error = measure(ours, truth, {.mask = mask});
   }
   {
     const std::lock_guard lock(mutex_);

@@ -18,8 +18,9 @@ namespace gloam::view {
 struct ReferenceView {
   std::shared_ptr<const LayeredImage> layers;
   int samples = 0;
-  double noise = 0.0, seconds = 0.0;
-  std::optional<Metrics> error;  ///< of the technique against it
+  double noise = 0.0;  ///< the relative RMSE that it makes by itself; infinite where that is not known yet
+  double seconds = 0.0;
+  std::optional<Metrics> error;  ///< of the technique against it, on surfaces
   std::string problem;           ///< why there is none
 };
 

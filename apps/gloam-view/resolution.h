@@ -69,8 +69,11 @@ class Resolution {
       if (known == costs_.end()) return unknown;
       return std::sqrt(std::max(patience_ms, 5.0) / known->second / std::max(window_pixels, 1.0));
     };
-    if (!moving) return shareBy(false, 0.71);
-    const double share = shareBy(true, 0.25);
+    const auto guess = [&](double most, double pixels) {
+      return std::min(most, std::sqrt(pixels / std::max(window_pixels, 1.0)));
+    };
+    if (!moving) return shareBy(false, guess(0.71, kFirstStillPixels));
+    const double share = shareBy(true, guess(0.25, kFirstMovingPixels));
     // What small pictures promise of large ones is held to what those took.
     return share < double(kSmall) ? share
                                   : std::min(share, std::max(shareBy(false, share), double(kLargestSmall)));
@@ -78,6 +81,7 @@ class Resolution {
   static std::string keyOf(const std::string& kind, bool small) { return small ? kind + " small" : kind; }
 
   static constexpr double kBaseMs = 8.0, kFewPixels = 4096.0;
+  static constexpr double kFirstStillPixels = 7e5, kFirstMovingPixels = 1e5;  ///< where nothing is learnt yet
   static constexpr float kSmall = 0.55f, kLargestSmall = 0.5f;
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
   std::map<std::string, double> costs_;  ///< milliseconds a pixel

@@ -70,7 +70,8 @@ TEST(Resolution, AnotherOrderOfSizeForgets) {
   resolution.fit(kWindow * 1.5);
   EXPECT_LT(resolution.scale("t", kWindow * 1.5, false), 0.3f);
   resolution.fit(kWindow * 30.0);
-  EXPECT_EQ(resolution.scale("t", kWindow * 30.0, false), 0.71f);
+  EXPECT_EQ(resolution.scale("t", kWindow * 30.0, false), 0.25f);  // 4K: not 4 million pixels at once
+  EXPECT_EQ(resolution.scale("t", kWindow * 3.0, false), 0.71f);
 }
 
 }  // namespace

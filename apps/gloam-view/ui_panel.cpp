@@ -71,7 +71,8 @@ void sceneSection(Session& session, UiState& ui) {
   if (!session.state.scene) return;
   const Scene& scene = session.state.scene->scene;
   const std::size_t lamps = session.state.scene->light_nodes.size();
-  dim(fmt::format("{} triangles in {} meshes, {}", cli::countText(triangles(scene)), scene.meshes.size(),
+  dim(fmt::format("{} triangles in {} mesh{}, {}", cli::countText(triangles(scene)), scene.meshes.size(),
+                  scene.meshes.size() == 1 ? "" : "es",
                   lamps == 0   ? "no lamps"
                   : lamps == 1 ? "1 lamp"
                                : fmt::format("{} lamps", lamps)));

@@ -22,7 +22,7 @@ void referenceControls(Session& session) {
   if (!reference->layers) return;
   if (!ImGui::BeginTable("errors", 2)) return;
   valueRow("samples a pixel", std::to_string(reference->samples));
-  valueRow("its noise", percent(reference->noise, 2));
+  valueRow("noise alone", percent(reference->noise, 2));
   if (reference->error) {
     const Metrics& e = *reference->error;
     valueRow("relative RMSE", percent(e.relative_rmse, 2));

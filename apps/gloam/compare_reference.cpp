@@ -312,17 +312,7 @@ bool tellsBounces(const ReferencePicture& reference, const Coverage& part, int b
 std::optional<double> relativeNoise(const ReferencePicture& reference, const Coverage& part, int bounces,
                                     const Image& light, const Image& mask) {
   const std::optional<double> variance = varianceOf(reference.layers, part, reference.file.string(), bounces);
-  double squares = 0.0;
-  for (std::size_t pixel = 0; pixel < mask.pixels.size(); ++pixel) {
-    if (mask.pixels[pixel] <= 0.0f) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = double(light.pixels[pixel * std::size_t(light.channels) + c]);
-      squares += value * value;
-    }
-  }
-  if (!variance || squares <= 0.0) return std::nullopt;
-  // Where nothing is seen there is no chance either: all of it is within the mask.
-  return std::sqrt(*variance * 3.0 * double(mask.pixels.size()) / squares);
+  return variance ? relativeNoise(*variance, light, mask) : std::nullopt;
 }
 
 std::optional<double> relativeNoise(const ReferencePicture& reference, const std::vector<bool>& glowing) {

@@ -5,6 +5,7 @@
 #include <gloam/error.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gloam::cli {
 
@@ -28,6 +29,20 @@ Image surfaceMask(const LayeredImage& picture, const std::string& place) {
       lit.pixels[i] = 0.0f;
   }
   return std::ranges::any_of(lit.pixels, [](float value) { return value > 0.0f; }) ? lit : mask;
+}
+
+std::optional<double> relativeNoise(double variance, const Image& light, const Image& mask) {
+  double squares = 0.0;
+  for (std::size_t pixel = 0; pixel < mask.pixels.size(); ++pixel) {
+    if (mask.pixels[pixel] <= 0.0f) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = double(light.pixels[pixel * std::size_t(light.channels) + c]);
+      squares += value * value;
+    }
+  }
+  if (squares <= 0.0) return std::nullopt;
+  // Where nothing is seen there is no chance either: all of it is within the mask.
+  return std::sqrt(variance * 3.0 * double(mask.pixels.size()) / squares);
 }
 
 }  // namespace gloam::cli

@@ -605,6 +605,15 @@ class ViewerTest(unittest.TestCase):
         self.assertNotIn("reference", self.stats("dropped.json"))  # the light has turned
         self.assertTrue((self.folder / "normal.png").exists())
 
+    def test_errors_and_noise_are_those_of_surfaces(self):
+        """Much sky is in view, the same in both: it must not make the error look smaller than the noise that is in it."""
+        self.script([{"wait": "idle"}, {"set": {"reference_samples": 4, "split": "reference"}}, {"wait": "reference"}, {"stats": "after.json"}],
+                    "builtin:balls?detail=0.25", "--env", "sky:noon", "--size", "160x120", "--scale", "1", "--technique", "irradiance",
+                    "--eye", "0,2,12", "--target", "0,3,0", "--no-panel")
+        reference = self.stats("after.json")["reference"]
+        self.assertGreater(reference["noise"], 0.01)
+        self.assertGreater(reference["relative_rmse"], 0.7 * reference["noise"])
+
     # ---- shaders ---------------------------------------------------------------------------------------------------------
 
     def test_shaders_are_followed_while_they_are_edited(self):
