@@ -67,7 +67,7 @@ const std::vector<Option>& options() {
        .maximum = 1000.0,
        .help = "difference of depth, in parts of it, from which on a texel is split; 0: all"},
       {.name = "light_threshold",
-       .default_value = 0.05f,
+       .default_value = 0.03f,
        .minimum = 0.0,
        .maximum = 1000.0,
        .help = "size of a texel on its surface, in parts of the mean distance of its light, from which on it "
