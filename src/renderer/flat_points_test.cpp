@@ -20,7 +20,8 @@ int glowing(SceneBuilder& builder) {
 glm::vec2 shining(const Scene& scene) {
   const PosedScene posed = pose(scene, 0.0f);
   glm::vec2 areas(0.0f);
-  for (const FlatPoint& point : shiningPoints(scene, posed, {&posed.instances[0]}).at(0)) {
+  const std::vector<std::vector<FlatPoint>> points = shiningPoints(scene, posed, {&posed.instances[0]});
+  for (const FlatPoint& point : points.at(0)) {
     EXPECT_EQ(point.emission, glm::vec3(1, 2, 3));
     if (point.normal.y > 0.5f) areas.x += point.area;
     if (point.normal.y < -0.5f) areas.y += point.area;
