@@ -57,7 +57,7 @@ Scene makeWalker(const Detail& detail, NamedValues&) {
   const float cell = detail.cell(0.045f);
   builder.place("ground", shapes::slab(2.2f, 2.2f, 0.2f, 0.03f, cell),
                 builder.diffuse("ground", {0.48f, 0.46f, 0.42f}));
-  // Walls reach into the ground and each other by their edges' radius: round edges would be seen there as dark lines.
+  // Walls and pedestal reach into the ground and each other by their edges' radius: round edges would be seen there as dark lines.
   constexpr float kEdge = 0.005f;
   builder.place("back wall",
                 shapes::moved(shapes::roundedBox({2.2f, 1.2025f, 0.08f}, kEdge, cell, 2), {0, 1.1975f, 0}),
@@ -65,8 +65,8 @@ Scene makeWalker(const Detail& detail, NamedValues&) {
   builder.place("left wall",
                 shapes::moved(shapes::roundedBox({0.08f, 1.2025f, 2.0425f}, kEdge, cell, 2), {0, 1.1975f, 0}),
                 builder.diffuse("red plaster", {0.58f, 0.14f, 0.09f}), {-2.12f, 0, -0.0025f});
-  builder.place("pedestal", shapes::cylinder(0.3f, 0.62f, 0.02f, detail(56), detail(22)),
-                builder.diffuse("stone", {0.68f, 0.66f, 0.62f}));
+  builder.place("pedestal", shapes::cylinder(0.3f, 0.645f, 0.02f, detail(56), detail(22)),
+                builder.diffuse("stone", {0.68f, 0.66f, 0.62f}), {0, -0.025f, 0});
   builder.place("knot", shapes::torusKnot(2, 3, 0.2f, 0.085f, 0.052f, detail(180), detail(16)),
                 builder.diffuse("gilded paint", {0.78f, 0.55f, 0.15f}), {0, 0.84f, 0});
   addFigure(builder, detail);
