@@ -63,7 +63,8 @@ Sh expSeries(const Sh& f, int terms = 9);
 Sh expLinear(const Sh& f);
 /// HYB: a 1 + b f^ of f^ / 2^p with |f^| / 2^p <= 0.25, squared p times.
 Sh expHybrid(const Sh& f);
-/// The same with a 1 + b f^ + c f^ * f^, |f^| / 2^p <= 2 (1 at orders 5, 6): p + 1 products, of which p is less by 3.
+/// The same with a 1 + b f^ + c f^ * f^, |f^| / 2^p <= 2 (1 at orders 5, 6): p + 1 products, of which p is less by 3; one more in the
+/// last quarter of that range, where it goes over to p + 1 squarings: it does not jump, as HYB does.
 Sh expQuadratic(const Sh& f);
 /// exp(M_f) 1 by eigenvalues in double precision, what the others approximate. Slow.
 Sh expNumeric(const Sh& f);

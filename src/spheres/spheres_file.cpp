@@ -134,7 +134,7 @@ SphereSet readSet(const Field& field, const Scene& scene) {
   set.nodes = indices(field["nodes"], scene.nodes.size());
   for (const int n : set.nodes) {
     if (scene.nodes[std::size_t(n)].meshes != set.meshes)
-      field["nodes"].fail("nodes that place these meshes");
+      field["nodes"].fail("nodes that place these meshes: these spheres belong to another model");
   }
   set.geometry = field["geometry"].text();
   if (set.geometry != spheres::geometryOf(scene, set.meshes)) {

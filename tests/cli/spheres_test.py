@@ -55,7 +55,8 @@ class Spheres(CliTest):
         self.path("less.json").write_text(json.dumps(sets), encoding="utf-8")
         self.succeed("render", BOX, *draw, "--spheres", "less.json", "-o", "b.png")
         self.assertNotEqual(self.path("a.png").read_bytes(), self.path("b.png").read_bytes())
-        self.refuse("render", "builtin:shadow", *draw, "--spheres", "box.json", "-o", "c.png", says="box.json")
+        self.refuse("render", "builtin:shadow", *draw, "--spheres", "box.json", "-o", "c.png",
+                    says=["box.json", "another model"])
         bench = ["bench", "proxies", *SMALL, "--frames", "1"]
         self.succeed(*bench, BOX, "--spheres", "less.json")
         self.refuse(*bench, "builtin:shadow", "--spheres", "box.json", says="box.json")
