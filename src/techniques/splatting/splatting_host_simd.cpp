@@ -197,17 +197,19 @@ void gatherAs(std::span<const SplatLight> lights, HostPoints& points) {
     for (const SplatLight& light : lights) {
       const V x = hn::Sub(hn::Set(d, light.position.x), px), y = hn::Sub(hn::Set(d, light.position.y), py),
               z = hn::Sub(hn::Set(d, light.position.z), pz);
+      const V here = hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z)));
+      const V there = hn::NegMulAdd(
+          hn::Set(d, light.normal.x), x,
+          hn::NegMulAdd(hn::Set(d, light.normal.y), y, hn::Neg(hn::Mul(hn::Set(d, light.normal.z), z))));
+      // Lights stand by side and place, so that many in a row are behind all of these places.
+      const auto lit = hn::And(hn::Gt(here, zero), hn::Gt(there, zero));
+      if (hn::AllFalse(d, lit)) continue;
       const V squared = hn::Max(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))), least);
       const V inverse = inverseOf(squared);
-      const V here = hn::Max(hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z))), zero);
-      const V there = hn::Max(
-          hn::MulAdd(hn::Set(d, -light.normal.x), x,
-                     hn::MulAdd(hn::Set(d, -light.normal.y), y, hn::Mul(hn::Set(d, -light.normal.z), z))),
-          zero);
       V bounded = inverse;
-      if constexpr (kBound == 1) bounded = hn::Min(inverse, hn::Set(d, 1.0f / std::max(light.bound, 1e-20f)));
+      if constexpr (kBound == 1) bounded = inverseOf(hn::Max(squared, hn::Set(d, light.bound)));
       if constexpr (kBound == 2) bounded = inverseOf(hn::Add(squared, hn::Set(d, light.bound)));
-      const V weight = hn::Mul(hn::Mul(here, there), hn::Mul(inverse, bounded));
+      const V weight = hn::IfThenElseZero(lit, hn::Mul(hn::Mul(here, there), hn::Mul(inverse, bounded)));
       red = hn::MulAdd(hn::Set(d, light.intensity.x), weight, red);
       green = hn::MulAdd(hn::Set(d, light.intensity.y), weight, green);
       blue = hn::MulAdd(hn::Set(d, light.intensity.z), weight, blue);
