@@ -36,11 +36,13 @@ Mesh column(const Detail& detail) {
   }
   const float neck = shaft.front().radius, foot = shaft.back().radius;
   shaft.push_back({foot, bottom - 0.03f});  // into the base
+  // The cushion: round from within the abacus in to the neck.
+  const auto cushion =
+      shapes::arc({neck, kSpring - abacus - 0.08f}, 0.1f, 0.31f * kPi, -0.5f * kPi, detail(8));
   Mesh mesh = shapes::revolve(
-      {shapes::line({0.0f, kSpring - abacus}, {neck + 0.1f, kSpring - abacus}, 2),
-       // The cushion: round from under the abacus in to the neck.
-       shapes::arc({neck, kSpring - abacus - 0.08f}, 0.1f, 0.3f * kPi, -0.5f * kPi, detail(8)), shaft,
-       shapes::arc({foot + 0.01f, plinth + 0.05f}, 0.05f, 0.5f * kPi, -0.5f * kPi, detail(7))},
+      {shapes::line({0.0f, cushion.front().height}, cushion.front(), 2), cushion, shaft,
+       // The base begins within the shaft, and ends within the plinth.
+       shapes::arc({foot - 0.005f, plinth + 0.049f}, 0.05f, 0.5f * kPi, -0.5f * kPi, detail(7))},
       detail(28));
   shapes::append(mesh, shapes::moved(shapes::roundedBox({r + 0.07f, 0.5f * plinth, r + 0.07f}, 0.012f,
                                                         detail.cell(0.08f), 2),
