@@ -40,7 +40,7 @@ void main() {
   }
   if (sample_ == 0u) {
     float greatest = most[0];
-    bool usable = greatest > 1e-30 && greatest < 1e30;  // false for not-a-number
+    bool usable = greatest > 1e-36 && greatest < 1e37;  // false for not-a-number
     exposure.at[0] = usable ? exp2(-ceil(log2(greatest))) : 1.0;
   }
 }
