@@ -63,6 +63,16 @@ TEST(Resolution, WhatMovesIsHeldToWhatLargePicturesTook) {
   EXPECT_EQ(resolution.scale("t", kWindow, true), 1.0f);
 }
 
+TEST(Resolution, WhatCostsMostIsSeenAtOnceAfterASwitch) {
+  Resolution resolution;
+  const double window = 1068.0 * 872.0;
+  resolution.fit(window);
+  resolution.add("t", window * 0.18 * 0.18, 0.18f, 180.0);
+  EXPECT_EQ(resolution.scale("t", window, true), 0.18f);
+  EXPECT_EQ(resolution.scale("t", window, true, true), 0.11f);
+  EXPECT_EQ(resolution.scale("t", 300.0 * 200.0, true, true), 0.35f);  // never below 4,096 pixels
+}
+
 TEST(Resolution, AnotherOrderOfSizeForgets) {
   Resolution resolution;
   resolution.fit(kWindow);
