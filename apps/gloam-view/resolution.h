@@ -54,7 +54,7 @@ class Resolution {
     if (fixed > 0.0f) return fixed;
     const double fewest = std::sqrt(kFewPixels / std::max(window_pixels, 1.0));
     const double share = std::max(affordable(kind, window_pixels, moving, hurry), fewest);
-    if (hurry && share < kHurried && fewest < kHurried) return kHurried;
+    if (hurry && share * 1.05 < kSteps[0] && fewest < kHurried) return kHurried;
     float best = kSteps[0];
     for (const float step : kSteps) {
       if (best < fewest || step <= share * 1.05) best = step;
@@ -84,7 +84,8 @@ class Resolution {
   static constexpr double kBaseMs = 8.0, kFewPixels = 4096.0;
   static constexpr double kFirstStillPixels = 7e5, kFirstMovingPixels = 1e5;  ///< where nothing is learnt yet
   static constexpr float kSmall = 0.55f, kLargestSmall = 0.5f;
-  static constexpr float kHurried = 0.11f;  ///< below all steps: what costs most is seen at once, if coarsely
+  static constexpr float kHurried =
+      0.11f;  ///< below all steps: what these cannot show in time is seen at once, if coarsely
   static constexpr float kSteps[] = {0.18f, 0.25f, 0.35f, 0.42f, 0.5f, 0.6f, 0.71f, 0.85f, 1.0f};
   std::map<std::string, double> costs_;  ///< milliseconds a pixel
   double learnt_in_ = 0.0;               ///< pixels of the window
