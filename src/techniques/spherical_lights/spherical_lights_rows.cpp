@@ -16,6 +16,9 @@ namespace gloam::spherical_lights {
 namespace {
 
 constexpr float kPi = 3.14159265f;
+// A ball is seen as the mean over half of it, which takes its bands by 2/3 and 1/4. For a disc's cosine that is undone in the first band, in the
+// second to 0.6: in full, the ball's back would shine on what is near.
+constexpr float kDiscBand1 = 1.5f, kDiscBand2 = 2.4f;
 
 /// Middle of the box round an object's spheres.
 glm::vec3 middleOf(std::span<const frame::Proxy> proxies) {
@@ -139,7 +142,8 @@ void addGlowing(Rows& rows, std::span<const frame::Patch> patches) {
     if (!(area > 0.0f)) continue;
     const sh::Sh cosine = sh::rotateZonal(sh::clampedCosine(4), patch.normal);
     SentRow glow{};
-    for (int i = 0; i < 16; ++i) glow.at[i] = patch.glow * cosine[i];
+    for (int i = 0; i < 9; ++i)
+      glow.at[i] = patch.glow * (cosine[i] * (i == 0 ? 1.0f : i < 4 ? kDiscBand1 : kDiscBand2));
     addBall(rows, patch.center, std::sqrt(area / kPi), glow);
   }
 }
