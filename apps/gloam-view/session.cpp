@@ -94,6 +94,14 @@ void Session::open(const std::string& name, bool ground) {
   });
 }
 
+PosedCamera Session::framed(const PosedCamera& camera, const PosedScene& posed) const {
+  PosedCamera framed = framingCamera(posed, aspect());
+  const float z_near = std::min(framed.camera.z_near, camera.camera.z_near);
+  framed.camera = camera.camera;
+  framed.camera.z_near = z_near;
+  return framed;
+}
+
 /// Reads scene and light. `then` runs when they are shown.
 void Session::openChoice(const ViewerChoice& choice, std::function<void()> then) {
   const bool first = first_;
@@ -112,8 +120,9 @@ void Session::openChoice(const ViewerChoice& choice, std::function<void()> then)
                                    .ground = choice.scene.ground,
                                    .spheres = choice.spheres,
                                    .scene = std::move(scene)});
-    return [this, loaded, base, posed, posed_camera, moves, choice, then] {
-      camera.set(posed_camera, posed);
+    const bool any = posed.cameras.empty() && !choice.view.eye;  // to be framed as the window is by then
+    return [this, loaded, base, posed, posed_camera, moves, choice, then, any] {
+      camera.set(any && height_ > 0 ? framed(posed_camera, posed) : posed_camera, posed);
       if (choice.view.eye && choice.view.target) camera.setTarget(*choice.view.eye, *choice.view.target);
       environment_name = choice.light.environment;
       state.time_s = choice.view.time_s;

@@ -141,6 +141,8 @@ class Session {
 
  private:
   void openChoice(const ViewerChoice& choice, std::function<void()> then);
+  /// The lens of `camera`, placed so that the picture as it is shaped now shows all of the scene.
+  PosedCamera framed(const PosedCamera& camera, const PosedScene& posed) const;
   void openPreset(const ViewerChoice& preset, const std::string& path);
   void takePreset(const ViewerChoice& preset, const std::string& path);
   void adopt(std::shared_ptr<const LoadedScene> scene, std::shared_ptr<const DistantLight> base);

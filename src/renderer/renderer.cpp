@@ -4,6 +4,8 @@
 #include <gloam/renderer.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "frame/frame.h"
@@ -203,9 +205,10 @@ DeviceInfo Renderer::device() const {
 }
 
 std::vector<MemoryUse> Renderer::memory() const {
+  std::map<std::string, std::size_t> bytes;  // two techniques side by side have images of one name
+  for (const gpu::MemoryUse& use : impl_->device->memory()) bytes[use.name] += std::size_t(use.bytes);
   std::vector<MemoryUse> uses;
-  for (const gpu::MemoryUse& use : impl_->device->memory())
-    uses.push_back({use.name, std::size_t(use.bytes)});
+  for (const auto& [name, sum] : bytes) uses.push_back({name, sum});
   std::ranges::sort(uses, std::greater(), &MemoryUse::bytes);
   return uses;
 }

@@ -4,6 +4,7 @@
 """gloam-view under Xvfb, with the validation layer on: real mouse and keys by xdotool, and scripts."""
 import base64
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -415,6 +416,14 @@ class ViewerTest(unittest.TestCase):
             self.script([{"wait": "idle"}, {"click": [x + width / 2, y + height / 2]}, {"wait_s": 0.5}, {"stats": "plays.json"}],
                         *arguments)
             self.assertGreater(self.stats("plays.json")["time_s"], 0.0)
+
+    def test_scenes_without_cameras_are_framed_by_the_window(self):
+        (self.folder / "wall.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        distances = []
+        for size in ("900x500", "300x500"):
+            self.script([{"wait": "idle"}, {"stats": "stats.json"}], "wall.obj", "--size", size, "--scale", "0.2")
+            distances.append(math.hypot(*self.stats("stats.json")["camera"]["eye"]))  # the middle is at 0
+        self.assertGreater(distances[1], 1.2 * distances[0])
 
     def test_lights_are_seen_before_anything_is_selected(self):
         window = [BOX, "--size", "900x600", "--scale", "0.2"]
