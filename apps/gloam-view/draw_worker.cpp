@@ -201,6 +201,7 @@ void DrawWorker::drawPicture(const ViewState& state, const Pick& pick, const Pos
   options.background = state.background;
   options.timings = true;
   const bool frame_layer = cli::isFrameLayer(state.show);
+  options.parts = state.layers || frame_layer;
   options.layers = state.layers || (frame_layer && state.show != "direct" && state.show != "indirect");
   // The other side of a split screen may have no image of that name.
   const bool by_name = !state.show.empty() && !frame_layer;

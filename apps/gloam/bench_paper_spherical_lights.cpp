@@ -130,7 +130,7 @@ void addGrowth(PaperTable& table, const BenchChoice& choice, Console& console) {
   };
   Renderer renderer(choice.device);
   RenderOptions options{.width = 256, .height = 256, .timings = true};
-  options.layers = false;
+  options.layers = options.parts = false;
   options.technique = "spherical_lights";
   table.plot = {.title = "Time of light over the number of balls",
                 .across = "balls, an object and a sphere each",

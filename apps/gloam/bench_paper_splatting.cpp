@@ -84,6 +84,7 @@ Rounds measureRounds(BenchStage& stage, const std::string& scene, std::vector<Va
                       scene + ", " + rounds.variants[v].name);
       RenderOptions options = stage.options;
       for (const auto& [name, value] : rounds.variants[v].settings) options.settings.set(name.c_str(), value);
+      options.parts = round < 0;
       const RenderedFrame frame = stage.renderer.render(stage.posed, stage.camera, options);
       if (round >= 0) rounds.own[v].push_back(ownTime(frame.passes));
       if (round < 0) rounds.light[v] = frame.layers.image("indirect", {"R", "G", "B"}, "frame");

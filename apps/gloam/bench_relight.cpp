@@ -130,7 +130,7 @@ class Subject {
     options_.width = options_.height = 16;
     options_.technique = "prt";
     options_.timings = true;
-    options_.layers = false;
+    options_.layers = options_.parts = false;
     camera_ = framingCamera(posed_, 1.0f);
     // A camera that sees nothing: all vertices are lit, no pixel is.
     camera_.world_from_view[3] += glm::vec4(0.0f, 1e4f, 0.0f, 0.0f);

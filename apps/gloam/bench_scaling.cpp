@@ -136,7 +136,7 @@ int benchScaling(const BenchChoice& choice, Console& console) {
   options.technique = info.name;
   options.settings = settingsFor(info, choice.technique);
   options.timings = true;
-  options.layers = false;
+  options.layers = options.parts = false;
   console.release();
   const std::vector<ScalingPoint> points = measureScaling(renderer, options, choice.frames, console);
   checkValidation(renderer);

@@ -37,7 +37,7 @@ BenchStage prepareBench(const BenchChoice& choice, Console& console) {
   stage.options.supersample = choice.view.supersample;
   stage.options.technique = info.name;
   stage.options.timings = true;
-  stage.options.layers = false;
+  stage.options.layers = stage.options.parts = false;
   stage.camera = chooseCamera(stage.posed, choice.view, console);
   return stage;
 }

@@ -86,7 +86,7 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.options.supersample = choice.view.supersample;
   stage.options.technique = stage.technique->name;
   stage.options.background = choice.display.background;
-  stage.options.layers =
+  stage.options.layers = stage.options.parts =
       isFrameLayer(choice.layer) || (choice.layer.empty() && choice.output.ends_with(".exr"));
   if (!isFrameLayer(choice.layer)) stage.options.show = choice.layer;
   return stage;

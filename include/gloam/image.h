@@ -60,7 +60,7 @@ struct LayeredImage {
   Image image(std::string_view layer, const std::vector<std::string>& channels,
               const std::string& place) const;
   /// Adds a layer of floats; `image` has as many channels as names. Throws Error where sizes differ.
-  void add(std::string name, std::vector<std::string> channels, const Image& image,
+  void add(std::string name, std::vector<std::string> channels, Image image,
            ChannelType type = ChannelType::kHalf);
   /// Adds a layer of one UINT channel, `ids` in the order of pixels.
   void addIds(std::string name, std::string channel, std::vector<std::uint32_t> ids);

@@ -100,6 +100,7 @@ struct RenderOptions {
   bool background = true;      ///< draw the environment behind the scene; else black, alpha 0
   bool timings = false;        ///< fill RenderedFrame::passes
   bool layers = true;          ///< normal, depth, albedo and object besides the light
+  bool parts = true;           ///< its direct and indirect part besides the sum; without them frames are read back faster
   /// Any image of the frame by name ("frame.irradiance_direct", "prt.irradiance_indirect"; Renderer::imageNames() lists
   /// them) as one more layer of that name, for eyes; empty: none.
   std::string show;

@@ -5,6 +5,7 @@
 #include <gloam/error.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -80,6 +81,44 @@ float readChannel(const std::byte* from, int bytes, Numbers numbers) {
   }
 }
 
+constexpr std::size_t kBlockPixels = 16;  // a number known to the compiler, which then uses vectors
+
+float widened(std::uint16_t half) {
+  // Exponent and mantissa at a float's places, times 2^112: exact, also below the normal range. No branch, so
+  // that compilers vectorise loops over it.
+  const std::uint32_t sign = static_cast<std::uint32_t>(half & 0x8000u) << 16;
+  const std::uint32_t shifted = static_cast<std::uint32_t>(half & 0x7fffu) << 13;
+  const auto finite = std::bit_cast<std::uint32_t>(std::bit_cast<float>(shifted) * 0x1p112f);
+  const std::uint32_t infinite = shifted < 0x0f800000u ? 0u : ~0u;
+  return std::bit_cast<float>(sign | (finite & ~infinite) | ((shifted | 0x7f800000u) & infinite));
+}
+
+/// kBlockPixels halves.
+void widenBlock(const std::byte* from, float* to) {
+  std::array<std::uint16_t, kBlockPixels> halves;
+  std::memcpy(halves.data(), from, sizeof halves);
+  for (std::size_t i = 0; i < kBlockPixels; ++i) to[i] = widened(halves[i]);
+}
+
+/// Pixels of any format, all its channels.
+void readBlock(VkFormat format, const FormatInfo& info, const std::byte* from, std::size_t count, float* to) {
+  const int channel_bytes = info.bytes / info.channels;
+  for (std::size_t pixel = 0; pixel < count; ++pixel, from += info.bytes, to += info.channels) {
+    if (info.numbers == Numbers::kPacked) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, from, sizeof word);
+      const bool ufloat = format == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+      const glm::vec4 unpacked =
+          ufloat ? glm::vec4(glm::unpackF2x11_1x10(word), 0.0f) : glm::unpackUnorm3x10_1x2(word);
+      for (int c = 0; c < info.channels; ++c) to[c] = unpacked[c];
+      continue;
+    }
+    for (int c = 0; c < info.channels; ++c)
+      to[c] = readChannel(from + std::ptrdiff_t{c} * channel_bytes, channel_bytes, info.numbers);
+    if (storedBlueFirst(format)) std::swap(to[0], to[2]);
+  }
+}
+
 void writeChannel(std::byte* to, int bytes, Numbers numbers, float value) {
   const float max_unsigned = bytes == 1 ? 255.0f : 65535.0f;
   const auto rounded = [&](float low, float high, float scale) {
@@ -144,48 +183,33 @@ std::uint16_t halfFromFloat(float value) {
 }
 
 float floatFromHalf(std::uint16_t half) {
-  // Exponent and mantissa at a float's places, times 2^112: exact, also below the normal range. No branch, so
-  // that compilers vectorise loops over it.
-  const std::uint32_t sign = static_cast<std::uint32_t>(half & 0x8000u) << 16;
-  const std::uint32_t shifted = static_cast<std::uint32_t>(half & 0x7fffu) << 13;
-  const auto finite = std::bit_cast<std::uint32_t>(std::bit_cast<float>(shifted) * 0x1p112f);
-  const bool is_finite = shifted < 0x0f800000u;
-  return std::bit_cast<float>(sign | (is_finite ? finite : shifted | 0x7f800000u));
+  return widened(half);
 }
 
-std::vector<float> floatsFromPixels(VkFormat format, std::span<const std::byte> pixels) {
+std::vector<float> floatsFromPixels(VkFormat format, std::span<const std::byte> pixels, int channels) {
   const FormatInfo& info = formatInfo(format);
   const std::size_t count = pixels.size() / static_cast<std::size_t>(info.bytes);
-  std::vector<float> values(count * static_cast<std::size_t>(info.channels));
-  const int channel_bytes = info.bytes / info.channels;
-  if (info.numbers == Numbers::kFloat) {
+  const auto stored = static_cast<std::size_t>(info.channels);
+  const auto kept = channels == 0 ? stored : static_cast<std::size_t>(channels);
+  std::vector<float> values(count * kept);
+  if (info.numbers == Numbers::kFloat && kept == stored) {
     std::memcpy(values.data(), pixels.data(), values.size() * sizeof(float));
     return values;
   }
-  if (info.numbers == Numbers::kHalf) {  // most of what is read back
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      std::uint16_t half = 0;
-      std::memcpy(&half, pixels.data() + 2 * i, sizeof half);
-      values[i] = floatFromHalf(half);
+  std::array<float, kBlockPixels * 4> block{};
+  for (std::size_t first = 0; first < count; first += kBlockPixels) {
+    const std::size_t pixels_here = std::min(kBlockPixels, count - first);
+    const std::byte* from = pixels.data() + first * static_cast<std::size_t>(info.bytes);
+    float* to = values.data() + first * kept;
+    float* row = kept == stored && pixels_here == kBlockPixels ? to : block.data();
+    if (info.numbers == Numbers::kHalf && pixels_here == kBlockPixels) {  // most of what is read back
+      for (std::size_t c = 0; c < stored; ++c) widenBlock(from + 2 * c * kBlockPixels, row + c * kBlockPixels);
+    } else {
+      readBlock(format, info, from, pixels_here, row);
     }
-    return values;
-  }
-  for (std::size_t pixel = 0; pixel < count; ++pixel) {
-    const std::byte* from = pixels.data() + pixel * static_cast<std::size_t>(info.bytes);
-    float* to = values.data() + pixel * static_cast<std::size_t>(info.channels);
-    if (info.numbers == Numbers::kPacked) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, from, sizeof word);
-      const bool ufloat = format == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
-      const glm::vec4 unpacked =
-          ufloat ? glm::vec4(glm::unpackF2x11_1x10(word), 0.0f) : glm::unpackUnorm3x10_1x2(word);
-      for (int c = 0; c < info.channels; ++c) to[c] = unpacked[c];
-      continue;
-    }
-    for (int c = 0; c < info.channels; ++c) {
-      to[c] = readChannel(from + std::ptrdiff_t{c} * channel_bytes, channel_bytes, info.numbers);
-    }
-    if (storedBlueFirst(format)) std::swap(to[0], to[2]);
+    if (row == to) continue;
+    for (std::size_t pixel = 0; pixel < pixels_here; ++pixel)
+      std::copy_n(row + pixel * stored, std::min(kept, stored), to + pixel * kept);
   }
   return values;
 }

@@ -32,8 +32,8 @@ inline int channelCount(VkFormat format) {
 std::uint16_t halfFromFloat(float value);
 float floatFromHalf(std::uint16_t half);
 
-/// Pixels of a format to floats and back, `channels` values a pixel.
-std::vector<float> floatsFromPixels(VkFormat format, std::span<const std::byte> pixels);
+/// Pixels of a format to floats, the first `channels` of each (0: all; more than there are: 0), and back, all of them.
+std::vector<float> floatsFromPixels(VkFormat format, std::span<const std::byte> pixels, int channels = 0);
 std::vector<std::byte> pixelsFromFloats(VkFormat format, std::span<const float> values);
 
 }  // namespace gloam::gpu

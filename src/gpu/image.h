@@ -31,6 +31,8 @@ struct ImageRange {
   bool operator==(const ImageRange&) const = default;
 };
 
+class Buffer;
+
 /// Pixels on the device, usable as sampled and storage image and as attachment as far as the format allows
 /// it. Move-only; destroying one that the device still uses is safe: it goes when the work is done.
 class Image {
@@ -77,9 +79,9 @@ class Image {
     downloadBytes(std::as_writable_bytes(std::span(result)).first(layerBytes(mip)), mip, layer);
     return result;
   }
-  /// Pixels as floats, channelCount(format) a pixel, rows from the top, whatever the format: halves widened,
+  /// Pixels as floats, the first `channels` of each (0: all), rows from the top, whatever the format: halves widened,
   /// normalised integers divided (sRGB stays encoded), integers converted.
-  std::vector<float> downloadFloats(int mip = 0, int layer = 0) const;
+  std::vector<float> downloadFloats(int mip = 0, int layer = 0, int channels = 0) const;
   /// The inverse: rounds to the format.
   void uploadFloats(std::span<const float> values, int mip = 0, int layer = 0);
   /// Fills mips 1 … from mip 0, each a 2 x 2 box of the one before. Immediate.
@@ -90,6 +92,8 @@ class Image {
 
  private:
   void release() noexcept;
+  /// A copy that the host reads.
+  Buffer downloaded(int mip, int layer) const;
 
   Device* device_ = nullptr;
   std::string name_;

@@ -70,12 +70,11 @@ void Image::uploadBytes(std::span<const std::byte> data, int mip, int layer) {
   });
 }
 
-void Image::downloadBytes(std::span<std::byte> data, int mip, int layer) const {
-  checkLayer(*this, mip, layer, data.size());
-  const Buffer staging(*device_, name_ + ".staging",
-                       BufferDesc{.bytes = data.size(),
-                                  .host_visible = true,
-                                  .by_address = device_->features().buffer_device_address});
+Buffer Image::downloaded(int mip, int layer) const {
+  Buffer staging(*device_, name_ + ".staging",
+                 BufferDesc{.bytes = layerBytes(mip),
+                            .host_visible = true,
+                            .by_address = device_->features().buffer_device_address});
   device_->runNow([&](VkCommandBuffer commands) {
     BarrierBatch barriers;
     barriers.add(*this, {mip, 1, layer, 1}, kCopyFrom);
@@ -83,13 +82,20 @@ void Image::downloadBytes(std::span<std::byte> data, int mip, int layer) const {
     const VkBufferImageCopy copy = wholeLayer(*this, mip, layer);
     device_->vk().vkCmdCopyImageToBuffer(commands, image_, kCopyFrom.layout, staging.handle(), 1, &copy);
   });
+  return staging;
+}
+
+void Image::downloadBytes(std::span<std::byte> data, int mip, int layer) const {
+  checkLayer(*this, mip, layer, data.size());
+  const Buffer staging = downloaded(mip, layer);
   std::memcpy(data.data(), staging.mapped(), data.size());
 }
 
-std::vector<float> Image::downloadFloats(int mip, int layer) const {
-  std::vector<std::byte> pixels(layerBytes(mip));
-  downloadBytes(pixels, mip, layer);
-  return floatsFromPixels(desc_.format, pixels);
+std::vector<float> Image::downloadFloats(int mip, int layer, int channels) const {
+  const std::size_t bytes = layerBytes(mip);
+  checkLayer(*this, mip, layer, bytes);
+  const Buffer staging = downloaded(mip, layer);
+  return floatsFromPixels(desc_.format, {static_cast<const std::byte*>(staging.mapped()), bytes}, channels);
 }
 
 void Image::uploadFloats(std::span<const float> values, int mip, int layer) {

@@ -53,7 +53,7 @@ Image LayeredImage::image(std::string_view layer, const std::vector<std::string>
   return result;
 }
 
-void LayeredImage::add(std::string name, std::vector<std::string> channels, const Image& image,
+void LayeredImage::add(std::string name, std::vector<std::string> channels, Image image,
                        ChannelType type) {
   if (layers.empty() && width == 0 && height == 0) {
     width = image.width;
@@ -66,7 +66,7 @@ void LayeredImage::add(std::string name, std::vector<std::string> channels, cons
     throw Error("layer '" + name + "'",
                 fmt::format("{} channel names for {} channels", channels.size(), image.channels));
   if (type == ChannelType::kUint) throw Error("layer '" + name + "'", "UINT channels are added with addIds");
-  layers.push_back({std::move(name), std::move(channels), type, image.pixels, {}});
+  layers.push_back({std::move(name), std::move(channels), type, std::move(image.pixels), {}});
 }
 
 void LayeredImage::addIds(std::string name, std::string channel, std::vector<std::uint32_t> ids) {

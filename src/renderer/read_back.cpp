@@ -14,26 +14,15 @@ namespace {
 
 /// The first `channels` of an image on the device; of one in three dimensions the slice in the middle.
 Image download(const gpu::ImageRef& ref, int channels) {
-  std::vector<float> values = ref.image().downloadFloats(ref.range().mip, ref.range().layer);
-  const int stored = gpu::channelCount(ref.format());
   Image image;
   image.width = ref.width();
   image.height = ref.height();
   image.channels = channels;
-  const std::size_t slice = image.pixelCount() * std::size_t(stored);
-  if (const std::size_t slices = values.size() / slice; slices > 1) {
-    const auto middle = values.begin() + std::ptrdiff_t(slices / 2 * slice);
-    values = std::vector<float>(middle, middle + std::ptrdiff_t(slice));
-  }
-  if (stored == channels) {
-    image.pixels = std::move(values);
-    return image;
-  }
-  image.pixels.resize(image.pixelCount() * std::size_t(channels));
-  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-    for (int c = 0; c < channels; ++c)
-      image.pixels[i * std::size_t(channels) + std::size_t(c)] =
-          c < stored ? values[i * std::size_t(stored) + std::size_t(c)] : 0.0f;
+  image.pixels = ref.image().downloadFloats(ref.range().mip, ref.range().layer, channels);
+  const std::size_t slice = image.pixelCount() * std::size_t(channels);
+  if (const std::size_t slices = image.pixels.size() / slice; slices > 1) {
+    const auto middle = image.pixels.begin() + std::ptrdiff_t(slices / 2 * slice);
+    image.pixels = std::vector<float>(middle, middle + std::ptrdiff_t(slice));
   }
   return image;
 }
@@ -53,13 +42,15 @@ bool isPacked(const std::string& name) {
 
 }  // namespace
 
-LayeredImage readLayers(const frame::FrameImages& images) {
+LayeredImage readLayers(const frame::FrameImages& images, bool parts) {
   LayeredImage result;
   result.width = images.color.width();
   result.height = images.color.height();
   result.add("", {"R", "G", "B", "A"}, download(images.color, 4));
-  result.add("direct", {"R", "G", "B"}, download(images.direct, 3));
-  result.add("indirect", {"R", "G", "B"}, download(images.indirect, 3));
+  if (parts) {
+    result.add("direct", {"R", "G", "B"}, download(images.direct, 3));
+    result.add("indirect", {"R", "G", "B"}, download(images.indirect, 3));
+  }
   if (!images.normal) return result;
   result.add("normal", {"X", "Y", "Z"}, download(images.normal, 3));
   result.add("depth", {"Z"}, download(images.depth, 1), ChannelType::kFloat);

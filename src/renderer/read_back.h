@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// The layers that docs/images.md names. Waits for the device.
-LayeredImage readLayers(const frame::FrameImages& images);
+/// The layers that docs/images.md names, "direct" and "indirect" where `parts` is true. Waits for the device.
+LayeredImage readLayers(const frame::FrameImages& images, bool parts);
 
 /// Any image of the frame as R, G, B of the picture's size (nearest pixel), for eyes: numbers as they are,
 /// one channel grey, integers as colours of their own, depth buffers as they are. Throws Error that lists the

@@ -184,7 +184,7 @@ RenderedFrame Renderer::render(const PosedScene& posed, const PosedCamera& camer
       impl_->memory, result.warnings);
   graph.execute();
   graph.wait();
-  result.layers = readLayers(images);
+  result.layers = readLayers(images, options.parts);
   if (!options.show.empty())
     result.layers.add(options.show, {"R", "G", "B"},
                       readShown(graph, options.show, options.width, options.height));
