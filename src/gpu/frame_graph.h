@@ -112,7 +112,7 @@ class FrameGraph {
   /// Same size and format: all bits. Else, for colour formats with filtering: scaled, bilinear.
   void copy(const std::string& name, ImageRef from, ImageRef to);
   void copy(const std::string& name, BufferRef from, BufferRef to);
-  /// The pixels of one mip and layer as they are kept, rows from the top without gaps, and back.
+  /// The pixels of one mip as they are kept, layer after layer, rows from the top without gaps, and back.
   void copy(const std::string& name, ImageRef from, BufferRef to);
   void copy(const std::string& name, BufferRef from, ImageRef to);
   /// Brings an imported image into a layout that someone else expects after the frame (presentation, a host

@@ -27,9 +27,10 @@ VkOffset3D cornerOf(const ImageRef& ref) {
 VkBufferImageCopy pixelsOf(const std::string& pass, const ImageRef& image, const BufferRef& buffer) {
   const std::string place = "pass '" + pass + "'";
   if (!image || !buffer) throw Error(place, "copies an empty reference");
-  if (image.range().mips != 1 || image.range().layers != 1)
-    throw Error(place, "copies one mip of one layer between '" + image.name() + "' and a buffer");
-  const std::size_t bytes = image.image().layerBytes(image.range().mip);
+  if (image.range().mips != 1)
+    throw Error(place, "copies one mip between '" + image.name() + "' and a buffer");
+  const std::size_t bytes =
+      image.image().layerBytes(image.range().mip) * static_cast<std::size_t>(image.range().layers);
   if (bytes != buffer.bytes()) {
     throw Error(place, "copies '" + image.name() + "', " + std::to_string(bytes) + " bytes, but '" +
                            buffer.name() + "' has " + std::to_string(buffer.bytes()));

@@ -47,21 +47,32 @@ frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::Fram
                                        const Settings& settings) {
   Plan plan = planOf(settings, inputs.gbuffer.width, inputs.gbuffer.height, inputs.warnings);
   plan.views = plan.views || inputs.show.starts_with("radiance_filter.");
-  frame::Lighting nothing{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
+  frame::Lighting lighting{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
   const vpls::Walks walks = walker_.record(graph, inputs, plan.walks, visibility_.world());
   if (walks.set_count == 0) {
     inputs.warnings.emplace_back(
         "no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect): lamps light, "
         "by "
         "their maps, and nothing else does");
-    return nothing;
+    return lighting;
   }
   if (plan.keepsField()) remarkSharpMaterials(inputs, plan.beams);
   const Light light = recordGather(graph, inputs, plan, walks, visibility_);
   if (plan.views) recordViews(graph, plan, light.values, light.exposure, "radiance_filter.raw", false);
-  const gpu::ImageRef filtered = recordFilter(graph, inputs, plan, light);
-  if (plan.views) recordViews(graph, plan, filtered, light.exposure, "radiance_filter.bands", true);
-  return recordShading(graph, inputs, plan, filtered, light.exposure);
+  HostResult result;
+  if (filtersOnHost(graph.device(), plan, light)) {
+    result = recordOnHost(graph, inputs, plan, light, surfaces_);
+  } else {
+    result.filtered = recordFilter(graph, inputs, plan, light);
+  }
+  if (plan.views) recordViews(graph, plan, result.filtered, light.exposure, "radiance_filter.bands", true);
+  if (result.shaded.empty())
+    result.shaded = recordShading(graph, inputs, plan, result.filtered, light.exposure);
+  for (std::size_t part = 0; part < plan.parts.size(); ++part) {
+    lighting.irradiance.push_back({.image = result.shaded[part].irradiance, .path = plan.parts[part]});
+    lighting.gloss.push_back({.image = result.shaded[part].gloss, .path = plan.parts[part]});
+  }
+  return lighting;
 }
 
 }  // namespace gloam::radiance_filter

@@ -5,6 +5,7 @@
 // (Segovia, Wald 2008). README.md has the rest.
 #pragma once
 
+#include "techniques/radiance_filter/radiance_filter_host.h"
 #include "techniques/technique.h"
 #include "visibility/visibility.h"
 #include "vpls/walks.h"
@@ -26,6 +27,7 @@ class RadianceFilter : public Technique {
 
   visibility::Visibility visibility_;
   vpls::Walker walker_;
+  HostSurfaces surfaces_{0, 0};
   std::uint64_t looked_at_ = 0;  ///< layout of the scene whose materials were looked at
 };
 

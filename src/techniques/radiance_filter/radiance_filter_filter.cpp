@@ -44,21 +44,11 @@ struct Axis {
   }
 };
 
-/// True: the host filters, between two passes.
-bool isOnHost(const gpu::Device& device, const Plan& plan, const Light& light) {
-  return light.points && device.info().software && plan.means != visibility::Means::kDevice &&
-         plan.mode != Mode::kIrradianceNormals;
-}
-
 gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                               const Light& light) {
   const gpu::ImageRef values = light.values;
   const auto likeValues = [&](const char* name) { return createValues(graph, plan, name, values.format()); };
   const gpu::ImageRef filtered = plan.views ? likeValues("radiance_filter.filtered") : values;
-  if (isOnHost(graph.device(), plan, light)) {
-    recordFilterOnHost(graph, inputs, plan, light, filtered);
-    return filtered;
-  }
   const gpu::ImageRef halfway = likeValues("radiance_filter.halfway");
   for (int axis = 0; axis < 2; ++axis) {
     const Axis way{axis, plan.taps[axis], runOf(graph.device(), plan.taps[axis]), plan};
@@ -94,18 +84,21 @@ gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inp
   return filtered;
 }
 
-frame::Lighting recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                              gpu::ImageRef values, gpu::BufferRef exposure) {
-  frame::Lighting lighting{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
+Shaded createShaded(gpu::FrameGraph& graph, const Plan& plan, std::size_t part) {
+  const auto image = [&](const char* what) {
+    return graph.create(
+        fmt::format("radiance_filter.{}_{}", what,
+                    plan.parts[part] == frame::Path::kDirect ? "direct" : "indirect"),
+        gpu::ImageDesc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = plan.width, .height = plan.height});
+  };
+  return {image("irradiance"), image("gloss")};
+}
+
+std::vector<Shaded> recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                                  gpu::ImageRef values, gpu::BufferRef exposure) {
+  std::vector<Shaded> parts;
   for (std::size_t part = 0; part < plan.parts.size(); ++part) {
-    const char* path = plan.parts[part] == frame::Path::kDirect ? "direct" : "indirect";
-    const auto image = [&](const char* what) {
-      return graph.create(
-          fmt::format("radiance_filter.{}_{}", what, path),
-          gpu::ImageDesc{
-              .format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = plan.width, .height = plan.height});
-    };
-    const gpu::ImageRef irradiance = image("irradiance"), gloss = image("gloss");
+    const Shaded& shaded = parts.emplace_back(createShaded(graph, plan, part));
     graph.compute("radiance_filter.shade", radiance_filter_shade_spv)
         .read("frame_view", inputs.view)
         .read("depth", inputs.gbuffer.depth)
@@ -113,16 +106,14 @@ frame::Lighting recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& 
         .read("diffuse", inputs.gbuffer.diffuse)
         .read("values", values)
         .read("exposure", exposure)
-        .write("irradiance", irradiance)
-        .write("gloss", gloss)
+        .write("irradiance", shaded.irradiance)
+        .write("gloss", shaded.gloss)
         .specialize("field", plan.keepsField())
         .specialize("beams", plan.beams && plan.parts[part] == frame::Path::kDirect)
         .push(int(part))
-        .dispatchOver(irradiance);
-    lighting.irradiance.push_back({.image = irradiance, .path = plan.parts[part]});
-    lighting.gloss.push_back({.image = gloss, .path = plan.parts[part]});
+        .dispatchOver(shaded.irradiance);
   }
-  return lighting;
+  return parts;
 }
 
 void recordViews(gpu::FrameGraph& graph, const Plan& plan, gpu::ImageRef values, gpu::BufferRef exposure,

@@ -126,7 +126,7 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
       sums ? createValues(graph, plan, "radiance_filter.sums", VK_FORMAT_R32G32B32A32_SFLOAT)
            : graph.create("radiance_filter.no_sums",
                           gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .layers = 2}),
-      graph.create("radiance_filter.exposure", gpu::BufferDesc{.bytes = sizeof(float)})};
+      graph.create("radiance_filter.exposure", gpu::BufferDesc{.bytes = sizeof(float), .host_visible = true})};
   if (!plan.brute()) {
     recordSet(work, visibility, kEverySet, kAlone);
   } else {

@@ -1,12 +1,10 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Segovia, Wald 2008, section 3.3 (row RF-4): what the host needs for the filter, and the pass that runs it.
+// Segovia, Wald 2008, section 3.3 (rows RF-4, RF-5): what the host needs to filter and shade, and the pass that does.
 #include "techniques/radiance_filter/radiance_filter_host.h"
 
 #include <tbb/parallel_for.h>
-
-#include <memory>
 
 #include "techniques/radiance_filter/radiance_filter_passes.h"
 
@@ -15,9 +13,11 @@ namespace gloam::radiance_filter {
 namespace {
 
 /// Of pixels, from points that stand by sets.
-HostSurfaces surfacesOf(const Plan& plan, const Interleaving& in, const frame::FrameView& view,
-                        std::span<const visibility::SightPoint> points, std::span<const glm::uvec2> ids) {
-  HostSurfaces surfaces(plan.width, plan.height);
+void readSurfaces(const Plan& plan, const Interleaving& in, const frame::FrameView& view,
+                  std::span<const visibility::SightPoint> points, std::span<const glm::uvec2> ids,
+                  HostSurfaces& surfaces) {
+  if (surfaces.width != plan.width || surfaces.height != plan.height)
+    surfaces = HostSurfaces(plan.width, plan.height);
   const float footprints =
       plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)) * glm::length(view.step_x);
   tbb::parallel_for(0, plan.height, [&](int row) {
@@ -35,31 +35,98 @@ HostSurfaces surfacesOf(const Plan& plan, const Interleaving& in, const frame::F
       surfaces.objects[at] = ids[std::size_t(y) * in.width + x].x;
     }
   });
-  return surfaces;
 }
+
+constexpr const char* kPass = "radiance_filter.filter";
+
+/// Copies between images and memory that the host reads, named as the pass, whose time they are.
+struct Exchange {
+  gpu::FrameGraph& graph;
+  std::size_t pixels;
+
+  gpu::BufferRef make(const std::string& name, std::size_t bytes_a_pixel) const {
+    return graph.create(name, gpu::BufferDesc{.bytes = pixels * bytes_a_pixel, .host_visible = true});
+  }
+  gpu::BufferRef read(const std::string& name, gpu::ImageRef image, std::size_t bytes_a_pixel) const {
+    const gpu::BufferRef buffer = make(name, bytes_a_pixel);
+    graph.copy(kPass, image, buffer);
+    return buffer;
+  }
+};
+
+/// Where the lobes of one part go.
+struct PartRefs {
+  gpu::BufferRef irradiance, gloss;
+};
 
 }  // namespace
 
-void recordFilterOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                        const Light& light, gpu::ImageRef filtered) {
-  const gpu::ImageRef ids = inputs.gbuffer.ids, values = light.values;
-  const gpu::BufferRef points = light.points, view = inputs.view;
-  auto& pass = graph.host("radiance_filter.filter");
-  pass.read(view).read(ids).read(points).read(values).write(filtered);
+bool filtersOnHost(const gpu::Device& device, const Plan& plan, const Light& light) {
+  return light.points && device.info().software && plan.means != visibility::Means::kDevice &&
+         plan.filter == Filter::kTwoPass && plan.taps != glm::ivec2(1) &&
+         plan.mode != Mode::kIrradianceNormals;
+}
+
+HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                        const Light& light, HostSurfaces& surfaces) {
+  constexpr std::size_t kFour = 4 * sizeof(std::uint16_t);
+  const Exchange exchange{graph, plan.pixels()};
+  const auto layers = std::size_t(light.values.range().layers);
+  const bool shades = plan.keepsField();
+  const gpu::BufferRef points = light.points, view = inputs.view, exposure = light.exposure;
+  const gpu::BufferRef values = exchange.read("radiance_filter.host_values", light.values, layers * kFour),
+                       halfway = exchange.make("radiance_filter.host_halfway", layers * kFour),
+                       filtered = exchange.make("radiance_filter.host_filtered", layers * kFour),
+                       ids =
+                           exchange.read("radiance_filter.host_ids", inputs.gbuffer.ids, sizeof(glm::uvec2));
+  gpu::BufferRef normals, diffuse;
+  std::vector<PartRefs> parts;
+  if (shades) {
+    normals = exchange.read("radiance_filter.host_normals", inputs.gbuffer.normals, sizeof(glm::uvec2));
+    diffuse = exchange.read("radiance_filter.host_diffuse", inputs.gbuffer.diffuse, kFour);
+    for (std::size_t part = 0; part < plan.parts.size(); ++part)
+      parts.push_back({exchange.make(fmt::format("radiance_filter.host_irradiance_{}", part), kFour),
+                       exchange.make(fmt::format("radiance_filter.host_gloss_{}", part), kFour)});
+  }
+  auto& pass = graph.host(kPass);
+  pass.read(view).read(ids).read(points).read(exposure).read(values).write(halfway).write(filtered);
+  if (shades) pass.read(normals).read(diffuse);
+  for (const PartRefs& part : parts) pass.write(part.irradiance).write(part.gloss);
   const Interleaving in = interleavingOf(plan, inputs.scene, kEverySet);
-  pass.run([=](gpu::HostAccess& access) {
-    const HostSurfaces surfaces =
-        surfacesOf(plan, in, access.download<frame::FrameView>(view).at(0),
-                   access.map<visibility::SightPoint>(points), ids.image().download<glm::uvec2>());
-    const int layers = values.range().layers;
-    const std::size_t layer = 4 * plan.pixels(), all = layer * std::size_t(layers);
-    const auto halves = std::make_unique_for_overwrite<std::uint16_t[]>(2 * all);
-    const auto layerOf = [&](int l) { return std::span(halves.get() + std::size_t(l) * layer, layer); };
-    for (int l = 0; l < layers; ++l) values.image().downloadBytes(std::as_writable_bytes(layerOf(l)), 0, l);
-    filterOnHost(surfaces, plan.taps, layers, {halves.get(), all}, {halves.get() + all, all});
-    auto& to = const_cast<gpu::Image&>(filtered.image());
-    for (int l = 0; l < layers; ++l) to.uploadBytes(std::as_bytes(layerOf(l)), 0, l);
+  pass.run([=, &surfaces](gpu::HostAccess& access) {
+    const frame::FrameView camera = access.download<frame::FrameView>(view).at(0);
+    readSurfaces(plan, in, camera, access.map<visibility::SightPoint>(points), access.map<glm::uvec2>(ids),
+                 surfaces);
+    const std::span<std::uint16_t> all = access.map<std::uint16_t>(filtered);
+    std::vector<HostShading> shadings;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      shadings.push_back({.values = all.subspan(i * kFieldLayers * 4 * plan.pixels()),
+                          .diffuse = access.map<std::uint16_t>(diffuse),
+                          .normals = access.map<glm::uvec2>(normals),
+                          .eye = camera.eye,
+                          .forward = camera.forward,
+                          .perspective = !(camera.depth_range > 0.0f),
+                          .beams = plan.beams && plan.parts[i] == frame::Path::kDirect,
+                          .exposure = access.map<float>(exposure)[0],
+                          .irradiance = access.map<std::uint16_t>(parts[i].irradiance),
+                          .gloss = access.map<std::uint16_t>(parts[i].gloss)});
+    filterOnHost(surfaces, plan.taps, int(layers), access.map<std::uint16_t>(values),
+                 access.map<std::uint16_t>(halfway), all, [&](int row) {
+                   for (const HostShading& shading : shadings) shadeRow(surfaces, shading, row);
+                 });
   });
+
+  HostResult result;
+  if (!shades || plan.views) {
+    result.filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
+    graph.copy(kPass, filtered, result.filtered);
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    result.shaded.push_back(createShaded(graph, plan, i));
+    graph.copy(kPass, parts[i].irradiance, result.shaded[i].irradiance);
+    graph.copy(kPass, parts[i].gloss, result.shaded[i].gloss);
+  }
+  return result;
 }
 
 }  // namespace gloam::radiance_filter

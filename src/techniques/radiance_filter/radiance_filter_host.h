@@ -1,12 +1,14 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Twin of the filter's two passes (radiance_filter_weights, _filter) for devices that are the host: a software driver loads and stores
+// Twin of the filter's two passes (radiance_filter_weights, _filter) and of shading (_shade) for devices that are the host: a software driver loads and stores
 // lane by lane, the host's vector units read a row as it stands.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -23,9 +25,24 @@ struct HostSurfaces {
   std::size_t at(int px, int py) const;
 };
 
-/// RF-4, across and then down, on all cores. `values`: halves, four a pixel, rows of a layer and layers one after another, filtered in
-/// place; `spare` holds as many.
-void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers, std::span<std::uint16_t> values,
-                  std::span<std::uint16_t> spare);
+/// RF-4, across and then down, on all cores. `values`: halves, four a pixel, rows of a layer and layers one after another, as
+/// `halfway` and `filtered` are. `done` is called for each row, from any core, when it is whole.
+void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers,
+                  std::span<const std::uint16_t> values, std::span<std::uint16_t> halfway,
+                  std::span<std::uint16_t> filtered, const std::function<void(int)>& done);
+
+/// What RF-5 makes of one part of the light, all images whole, halves four a pixel.
+struct HostShading {
+  static constexpr int kBlock = 8;         ///< pixels at a time, at most
+  std::span<const std::uint16_t> values;   ///< kFieldLayers, filtered
+  std::span<const std::uint16_t> diffuse;  ///< of the G-buffer: k_d, roughness
+  std::span<const glm::uvec2> normals;     ///< of the G-buffer
+  glm::vec3 eye{0.0f}, forward{0.0f};
+  bool perspective = true, beams = false;
+  float exposure = 1.0f;
+  std::span<std::uint16_t> irradiance, gloss;  ///< out
+};
+/// Twin of radiance_filter_shade: one row.
+void shadeRow(const HostSurfaces& surfaces, const HostShading& shading, int row);
 
 }  // namespace gloam::radiance_filter

@@ -138,12 +138,13 @@ std::size_t HostSurfaces::at(int px, int py) const {
   return std::size_t(py) * std::size_t(width + 2 * kMostTaps) + std::size_t(px + kMostTaps);
 }
 
-void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers, std::span<std::uint16_t> values,
-                  std::span<std::uint16_t> spare) {
+void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers,
+                  std::span<const std::uint16_t> values, std::span<std::uint16_t> halfway,
+                  std::span<std::uint16_t> filtered, const std::function<void(int)>& done) {
   const auto row = std::size_t(4 * surfaces.width), layer = row * std::size_t(surfaces.height);
   for (int axis = 0; axis < 2; ++axis) {
-    const std::uint16_t* from = axis == 0 ? values.data() : spare.data();
-    std::uint16_t* to = axis == 0 ? spare.data() : values.data();
+    const std::uint16_t* from = axis == 0 ? values.data() : halfway.data();
+    std::uint16_t* to = axis == 0 ? halfway.data() : filtered.data();
     tbb::parallel_for(0, surfaces.height, [&](int y) {
       std::vector<std::uint32_t> chosen(std::size_t(surfaces.width));
       HWY_DYNAMIC_DISPATCH(chooseRow)(surfaces, y, axis, taps[axis], chosen.data());
@@ -152,6 +153,7 @@ void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers, std
         HWY_DYNAMIC_DISPATCH(filterRow)
         (from + at, axis == 0 ? 4 : std::ptrdiff_t(row), taps[axis], chosen.data(), surfaces.width, to + at);
       }
+      if (axis == 1) done(y);
     });
   }
 }

@@ -55,9 +55,21 @@ struct Light {
 Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                    const vpls::Walks& walks, visibility::Visibility& visibility);
 
-/// The two passes of RF-4 on the host: "radiance_filter.filter", into `filtered`.
-void recordFilterOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                        const Light& light, gpu::ImageRef filtered);
+/// What lobes make of one part of the light: images of halves, of the picture's size.
+struct Shaded {
+  gpu::ImageRef irradiance, gloss;
+};
+Shaded createShaded(gpu::FrameGraph& graph, const Plan& plan, std::size_t part);
+
+/// True: the host does the two passes of RF-4, and of a field RF-5.
+bool filtersOnHost(const gpu::Device& device, const Plan& plan, const Light& light);
+struct HostResult {
+  gpu::ImageRef filtered;      ///< where views want it, or what is filtered is light through lobes
+  std::vector<Shaded> shaded;  ///< of each part; none where `filtered` is yet to be shaded
+};
+/// "radiance_filter.filter". `surfaces` is kept from frame to frame.
+HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                        const Light& light, HostSurfaces& surfaces);
 /// Which point is which pixel (RF-2); `only_set` or kEverySet.
 Interleaving interleavingOf(const Plan& plan, const frame::GpuScene& scene, std::uint32_t only_set);
 
@@ -67,8 +79,8 @@ gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inp
                            const Light& light);
 
 /// RF-5: "radiance_filter.shade".
-frame::Lighting recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                              gpu::ImageRef values, gpu::BufferRef exposure);
+std::vector<Shaded> recordShading(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
+                                  gpu::ImageRef values, gpu::BufferRef exposure);
 
 /// Pictures of the values, named `name`_0 to _2: a band's length each, or irradiance and gloss.
 void recordViews(gpu::FrameGraph& graph, const Plan& plan, gpu::ImageRef values, gpu::BufferRef exposure,

@@ -184,7 +184,11 @@ TEST(RadianceFilterTwin, HostFiltersAsTheDeviceDoes) {
                  [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                    return technique.record(graph, inputs, settings);
                  });
-      filtered[means[0] == 'd'] = frame.floats("radiance_filter.irradiance_indirect");
+      for (const char* what :
+           {"irradiance_direct", "irradiance_indirect", "gloss_direct", "gloss_indirect"}) {
+        const std::vector<float> values = frame.floats(fmt::format("radiance_filter.{}", what));
+        filtered[means[0] == 'd'].insert(filtered[means[0] == 'd'].end(), values.begin(), values.end());
+      }
     }
     double difference = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < filtered[0].size(); ++i) {

@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "techniques/splatting/splatting_host_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "frame/gbuffer_simd.h"
 // clang-format on
 #include <algorithm>
 
@@ -29,31 +30,10 @@ HWY_INLINE V inverseOf(V v) {
   return hn::Mul(guess, hn::NegMulAdd(guess, v, hn::Set(d, 2.0f)));
 }
 
-struct Normal {
-  V x, y, z;
-};
-
-/// octahedralDirection of frame/gbuffer.glsl.
-HWY_INLINE Normal unpackNormal(hn::Vec<hn::RebindToUnsigned<D>> words) {
-  const D d;
-  const hn::RebindToSigned<D> di;
-  const auto scale = hn::Set(d, 1.0f / 32767.0f), one = hn::Set(d, 1.0f), least = hn::Set(d, -1.0f);
-  const auto bits = hn::BitCast(di, words);
-  const V x = hn::Max(hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(bits))), scale), least);
-  const V y = hn::Max(hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(bits)), scale), least);
-  const V z = hn::Sub(hn::Sub(one, hn::Abs(x)), hn::Abs(y));
-  // Below the equator both move inward by what z is below zero, which is the other way to write the fold.
-  const V fold = hn::Max(hn::Neg(z), hn::Zero(d));
-  const V fx = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Add(x, fold), hn::Sub(x, fold));
-  const V fy = hn::IfThenElse(hn::Lt(y, hn::Zero(d)), hn::Add(y, fold), hn::Sub(y, fold));
-  const V squared = hn::MulAdd(fx, fx, hn::MulAdd(fy, fy, hn::Mul(z, z)));
-  const V scale_to_unit = hn::Div(one, hn::Sqrt(squared));
-  return {hn::Mul(fx, scale_to_unit), hn::Mul(fy, scale_to_unit), hn::Mul(z, scale_to_unit)};
-}
+using Normal = frame::HWY_NAMESPACE::Vector3<V>;
 
 void PixelRow(const float* depth, const glm::uvec2* normals, int width, bool by_shading, float* const* to) {
   const D d;
-  const hn::RebindToUnsigned<D> du;
   const auto lanes = int(hn::Lanes(d));
   HWY_ALIGN std::uint32_t last_words[2 * HostPoints::kMultiple] = {};
   HWY_ALIGN float last_depth[HostPoints::kMultiple] = {};
@@ -66,15 +46,13 @@ void PixelRow(const float* depth, const glm::uvec2* normals, int width, bool by_
       words = last_words;
       from = last_depth;
     }
-    hn::Vec<decltype(du)> shading, geometric;
-    hn::LoadInterleaved2(du, words, shading, geometric);
-    const Normal n = unpackNormal(shading);
+    Normal n, g;
+    frame::HWY_NAMESPACE::readNormals(d, words, &n, by_shading ? nullptr : &g);
     hn::StoreU(hn::LoadU(d, from), d, to[0] + x);
     hn::StoreU(n.x, d, to[1] + x);
     hn::StoreU(n.y, d, to[2] + x);
     hn::StoreU(n.z, d, to[3] + x);
     if (by_shading) continue;
-    const Normal g = unpackNormal(geometric);
     hn::StoreU(g.x, d, to[4] + x);
     hn::StoreU(g.y, d, to[5] + x);
     hn::StoreU(g.z, d, to[6] + x);
