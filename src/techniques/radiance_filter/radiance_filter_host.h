@@ -33,7 +33,7 @@ void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers,
 
 /// What RF-5 makes of one part of the light, all images whole, halves four a pixel.
 struct HostShading {
-  static constexpr int kBlock = 8;         ///< pixels at a time, at most
+  static constexpr int kBlock = 16;        ///< pixels at a time, at most
   std::span<const std::uint16_t> values;   ///< kFieldLayers, filtered
   std::span<const std::uint16_t> diffuse;  ///< of the G-buffer: k_d, roughness
   std::span<const glm::uvec2> normals;     ///< of the G-buffer

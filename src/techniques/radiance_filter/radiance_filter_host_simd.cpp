@@ -49,35 +49,60 @@ namespace gloam::radiance_filter {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// One pixel a lane, in the middle of its window.
+struct Middle {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<hn::CappedTag<float, 16>> du;
+  hn::Vec<decltype(du)> object;
+  hn::Vec<decltype(d)> x, y, z, normal_x, normal_y, normal_z, tolerance;
+
+  HWY_INLINE Middle(const HostSurfaces& s, std::size_t at)
+      : object(hn::LoadU(du, &s.objects[at])),
+        x(hn::LoadU(d, &s.x[at])),
+        y(hn::LoadU(d, &s.y[at])),
+        z(hn::LoadU(d, &s.z[at])),
+        normal_x(hn::LoadU(d, &s.normal_x[at])),
+        normal_y(hn::LoadU(d, &s.normal_y[at])),
+        normal_z(hn::LoadU(d, &s.normal_z[at])),
+        tolerance(hn::LoadU(d, &s.tolerance[at])) {}
+
+  /// `bit` where the pixels there are of its surface.
+  HWY_INLINE hn::Vec<decltype(du)> same(const HostSurfaces& s, std::size_t there, std::uint32_t bit) const {
+    const auto off = hn::MulAdd(normal_x, hn::Sub(hn::LoadU(d, &s.x[there]), x),
+                                hn::MulAdd(normal_y, hn::Sub(hn::LoadU(d, &s.y[there]), y),
+                                           hn::Mul(normal_z, hn::Sub(hn::LoadU(d, &s.z[there]), z))));
+    const auto facing = hn::MulAdd(normal_x, hn::LoadU(d, &s.normal_x[there]),
+                                   hn::MulAdd(normal_y, hn::LoadU(d, &s.normal_y[there]),
+                                              hn::Mul(normal_z, hn::LoadU(d, &s.normal_z[there]))));
+    const auto near = hn::And(hn::Le(hn::Abs(off), tolerance), hn::Ge(facing, hn::Set(d, kCrease)));
+    const auto is = hn::And(hn::RebindMask(du, near), hn::Eq(object, hn::LoadU(du, &s.objects[there])));
+    return hn::IfThenElseZero(is, hn::Set(du, bit));
+  }
+};
+
 /// The taps that are taken, of the pixels of row `y`. Taps are `step` numbers of a plane apart.
 void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* chosen) {
-  const hn::CappedTag<float, 8> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
+  const hn::CappedTag<std::uint32_t, 16> du;
   const Line line{taps};
-  const auto lanes = int(hn::Lanes(d));
+  const auto lanes = int(hn::Lanes(du));
   const std::ptrdiff_t step = axis == 0 ? 1 : std::ptrdiff_t(s.at(0, 1)) - std::ptrdiff_t(s.at(0, 0));
   const int first = axis == 0 ? 0 : std::max(0, line.reachBefore() - y);
   const int last = axis == 0 ? line.reach() : std::min(line.reach(), s.height - y + line.reachBefore());
+  const std::uint32_t whole = line.whole();
   for (int x = 0; x < s.width; x += lanes) {
     const std::size_t at = s.at(x, y);
-    const auto object = hn::LoadU(du, &s.objects[at]);
-    const auto px = hn::LoadU(d, &s.x[at]), py = hn::LoadU(d, &s.y[at]), pz = hn::LoadU(d, &s.z[at]);
-    const auto nx = hn::LoadU(d, &s.normal_x[at]), ny = hn::LoadU(d, &s.normal_y[at]),
-               nz = hn::LoadU(d, &s.normal_z[at]), tolerance = hn::LoadU(d, &s.tolerance[at]);
+    const Middle middle(s, at);
     auto bits = hn::Zero(du);
-    for (int j = first; j < last; ++j) {
-      const std::size_t there = at + std::size_t((j - line.reachBefore()) * step);
-      const auto off = hn::MulAdd(nx, hn::Sub(hn::LoadU(d, &s.x[there]), px),
-                                  hn::MulAdd(ny, hn::Sub(hn::LoadU(d, &s.y[there]), py),
-                                             hn::Mul(nz, hn::Sub(hn::LoadU(d, &s.z[there]), pz))));
-      const auto facing = hn::MulAdd(
-          nx, hn::LoadU(d, &s.normal_x[there]),
-          hn::MulAdd(ny, hn::LoadU(d, &s.normal_y[there]), hn::Mul(nz, hn::LoadU(d, &s.normal_z[there]))));
-      const auto near = hn::And(hn::Le(hn::Abs(off), tolerance), hn::Ge(facing, hn::Set(d, kCrease)));
-      const auto same = hn::And(hn::RebindMask(du, near), hn::Eq(object, hn::LoadU(du, &s.objects[there])));
-      bits = hn::Or(bits, hn::IfThenElseZero(same, hn::Set(du, 1u << j)));
-    }
-    HWY_ALIGN std::uint32_t of_lane[8];
+    const auto look = [&](std::uint32_t wanted) HWY_ATTR {
+      for (int j = first; j < last; ++j) {
+        if ((wanted >> j & 1u) != 0)
+          bits = hn::Or(bits, middle.same(s, at + std::size_t((j - line.reachBefore()) * step), 1u << j));
+      }
+    };
+    look(whole);
+    if (!hn::AllTrue(du, hn::Eq(bits, hn::Set(du, whole))))
+      look(~whole);  // what may take places of missing taps
+    HWY_ALIGN std::uint32_t of_lane[16];
     hn::Store(bits, du, of_lane);
     for (int i = 0; i < lanes && x + i < s.width; ++i)
       chosen[x + i] = s.objects[at + std::size_t(i)] == 0 ? 0u : line.chosen(of_lane[i]);
@@ -87,19 +112,20 @@ void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* 
 /// Means over the taps of a row of pixels; halves `step` apart.
 void filterRow(const std::uint16_t* from, std::ptrdiff_t step, int taps, const std::uint32_t* chosen,
                int width, std::uint16_t* to) {
-  const hn::CappedTag<float, 8> d;
+  const hn::CappedTag<float, 16> d;
   const hn::CappedTag<float, 4> d4;
   const hn::Rebind<hwy::float16_t, decltype(d)> dh;
   const hn::Rebind<hwy::float16_t, decltype(d4)> dh4;
   const Line line{taps};
   const auto pixels = int(hn::Lanes(d)) / 4;
   const std::uint32_t whole = line.whole();
+  const auto isWhole = [whole](std::uint32_t bits) { return bits == whole; };
   const float share = 1.0f / float(taps);
   const auto* halves = reinterpret_cast<const hwy::float16_t*>(from);
   auto* means = reinterpret_cast<hwy::float16_t*>(to);
   for (int x = 0; x < width;) {
     const hwy::float16_t* here = halves + 4 * x - line.reachBefore() * step;
-    if (chosen[x] == whole && x + pixels <= width && chosen[x + pixels - 1] == whole) {
+    if (x + pixels <= width && std::all_of(chosen + x, chosen + x + pixels, isWhole)) {
       auto sum = hn::Zero(d);
       const int first = std::countr_zero(whole);
       for (int j = first; j < first + taps; ++j)

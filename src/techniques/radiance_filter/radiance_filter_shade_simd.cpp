@@ -50,8 +50,20 @@ HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
 HWY_INLINE Vector choose(M mask, const Vector& a, const Vector& b) {
   return {hn::IfThenElse(mask, a.x, b.x), hn::IfThenElse(mask, a.y, b.y), hn::IfThenElse(mask, a.z, b.z)};
 }
+/// 1 / v and 1 / sqrt(v) to the last bits, for v above 0: a guess and a step of Newton's, in a fraction of a division's time.
+HWY_INLINE V inverse(V v) {
+  const V guess = hn::ApproximateReciprocal(v);
+  return guess * hn::NegMulAdd(guess, v, set(2.0f));
+}
+HWY_INLINE V inverseRoot(V v) {
+  const V guess = hn::ApproximateReciprocalSqrt(v);
+  return guess * hn::NegMulAdd(set(0.5f) * v * guess, guess, set(1.5f));
+}
+HWY_INLINE V root(V v) {
+  return v * inverseRoot(hn::Max(v, set(1e-30f)));
+}
 HWY_INLINE Vector unit(const Vector& a) {
-  return times(a, set(1.0f) / hn::Sqrt(hn::Max(dot(a, a), set(1e-30f))));
+  return times(a, inverseRoot(hn::Max(dot(a, a), set(1e-30f))));
 }
 HWY_INLINE V clamped(V v, float low, float high) {
   return hn::Min(hn::Max(v, set(low)), set(high));
@@ -70,17 +82,17 @@ HWY_INLINE V convolved(const Bands& light, const Vector& d, V zero, V one, V two
 }
 
 HWY_INLINE V bandOne(V s) {
-  return (s + set(1.0f)) / (s + set(2.0f));
+  return (s + set(1.0f)) * inverse(s + set(2.0f));
 }
 HWY_INLINE V bandTwo(V s) {
-  return s / (s + set(3.0f));
+  return s * inverse(s + set(3.0f));
 }
 HWY_INLINE V exponentOfBandOne(V b) {
-  return hn::Max(hn::MulSub(set(2.0f), b, set(1.0f)), set(0.0f)) / (set(1.0f) - b);
+  return hn::Max(hn::MulSub(set(2.0f), b, set(1.0f)), set(0.0f)) * inverse(set(1.0f) - b);
 }
 HWY_INLINE V exponentOfRatio(V r) {
   const V middle = hn::MulSub(set(2.0f), r, set(1.0f)), rest = set(1.0f) - r;
-  return (middle + hn::Sqrt(hn::MulAdd(middle, middle, set(3.0f) * r * rest))) / rest;
+  return (middle + root(hn::MulAdd(middle, middle, set(3.0f) * r * rest))) * inverse(rest);
 }
 
 struct Symmetric {
@@ -90,79 +102,116 @@ HWY_INLINE Vector times(const Symmetric& q, const Vector& v) {
   return {dot({q.xx, q.xy, q.xz}, v), dot({q.xy, q.yy, q.yz}, v), dot({q.xz, q.yz, q.zz}, v)};
 }
 
-HWY_INLINE V leastEigenvalue(const Symmetric& q) {
+/// Root of the mean square of the eigenvalues of a matrix without trace, times sqrt(1 / 2).
+HWY_INLINE V sizeOf(const Symmetric& q) {
   const V on = hn::MulAdd(q.xx, q.xx, hn::MulAdd(q.yy, q.yy, q.zz * q.zz));
   const V off = hn::MulAdd(q.xy, q.xy, hn::MulAdd(q.xz, q.xz, q.yz * q.yz));
-  const V p = hn::Sqrt(hn::MulAdd(set(2.0f), off, on) * set(1.0f / 6.0f));
-  const V inverse = set(1.0f) / hn::Max(p, set(1e-30f));
-  const Symmetric n{q.xx * inverse, q.yy * inverse, q.zz * inverse,
-                    q.xy * inverse, q.xz * inverse, q.yz * inverse};
-  const V determinant = dot({n.xx, n.xy, n.xz}, cross({n.xy, n.yy, n.yz}, {n.xz, n.yz, n.zz}));
-  const V angle = hn::Acos(D(), clamped(set(0.5f) * determinant, -1.0f, 1.0f));
-  const V least = set(2.0f) * p * hn::Cos(D(), hn::MulAdd(angle, set(1.0f / 3.0f), set(2.0943951f)));
-  return hn::IfThenElseZero(hn::Gt(p, set(0.0f)), least);
+  return root(hn::MulAdd(set(2.0f), off, on) * set(1.0f / 6.0f));
 }
 
-HWY_INLINE Vector eigenvectorOf(const Symmetric& q, V value) {
-  const Vector r0{q.xx - value, q.xy, q.xz}, r1{q.xy, q.yy - value, q.yz}, r2{q.xz, q.yz, q.zz - value};
+/// Of a matrix of size 1.
+HWY_INLINE V leastEigenvalue(const Symmetric& n) {
+  const V determinant = dot({n.xx, n.xy, n.xz}, cross({n.xy, n.yy, n.yz}, {n.xz, n.yz, n.zz}));
+  // cos(acos(x) / 3 + 2 pi / 3) is smooth in sqrt((1 - x) / 2): to 2e-7.
+  const V x = clamped(set(0.5f) * determinant, -1.0f, 1.0f), t = root(hn::NegMulAdd(set(0.5f), x, set(0.5f)));
+  V cosine = set(0.0021034910f);
+  for (const float c :
+       {-0.0105017536f, 0.0263997493f, -0.0514747633f, 0.1108054709f, -0.5773319021f, -0.5000001860f})
+    cosine = hn::MulAdd(cosine, t, set(c));
+  return cosine + cosine;
+}
+
+/// Of a matrix of size 1.
+HWY_INLINE Vector eigenvectorOf(const Symmetric& n, V value) {
+  const Vector r0{n.xx - value, n.xy, n.xz}, r1{n.xy, n.yy - value, n.yz}, r2{n.xz, n.yz, n.zz - value};
   const Vector a = cross(r0, r1), b = cross(r1, r2), c = cross(r2, r0);
   Vector best = choose(hn::Gt(dot(a, a), dot(b, b)), a, b);
   best = choose(hn::Gt(dot(best, best), dot(c, c)), best, c);
-  const V length = hn::Sqrt(dot(best, best));
-  const M is = hn::Gt(length, set(0.0f));
-  return choose(is, times(best, set(1.0f) / hn::IfThenElse(is, length, set(1.0f))),
-                {set(0.0f), set(0.0f), set(1.0f)});
+  return unit(best);
 }
 
-struct Beams {
+/// One colour on its way to beams. The steps are taken by all three colours in turn: each is a chain of operations that wait for one another,
+/// and three of them run side by side.
+struct Color {
+  Bands light;
+  V all, least, along, mean, uu, uw, ww;
+  M are;
+  Symmetric q;
+  Vector v, across, u, w;
+  // The beams.
   Vector direction[2];
-  V strength[2];
-  V exponent;
+  V strength[2], exponent;
 };
 
-HWY_INLINE Beams beamsOf(const Bands& light) {
-  const V all = set(3.5449077f) * light[0], one = set(2.0466534f), off = set(1.3729382f),
-          on = set(0.7926655f);
-  const Vector v{one * light[3], one * light[1], one * light[2]};
-  const V zz = on * light[6], xx_yy = off * light[8];
-  const Symmetric q{xx_yy - zz, hn::Neg(xx_yy) - zz, zz + zz, off * light[4], off * light[7], off * light[5]};
-  V least = leastEigenvalue(q);
-  const Vector across = eigenvectorOf(q, least);
-  Vector u = plus(v, times(across, hn::Neg(dot(v, across))));
-  V along = hn::Sqrt(dot(u, u));
-  const M are = hn::And(hn::Lt(least, set(-1e-4f) * all), hn::Gt(along, set(1e-3f) * all));
-  least = hn::IfThenElse(are, least, set(-1.0f));
-  along = hn::IfThenElse(are, along, set(1.0f));
-  u = times(u, set(1.0f) / along);
-  const Vector w = cross(across, u);
-  const V scale = set(1.0f) / (set(-3.0f) * least), less = hn::Neg(least);
-  const Vector nu = times(plus(times(q, u), times(u, less)), scale),
-               nw = times(plus(times(q, w), times(w, less)), scale);
-  const V uu = dot(u, nu), uw = dot(u, nw), ww = dot(w, nw);
-  const V k = along * hn::Sqrt(hn::Max(ww, set(1e-4f)) / hn::Max(uu * ww - uw * uw, set(1e-4f) * uu));
-  const V s = hn::Min(exponentOfRatio(clamped(set(-2.0f) * least / k, 0.0f, 0.9995f)), set(kSharpestBeam));
-  const V strength = hn::IfThenElseZero(are, hn::Min(k / bandOne(s), all)),
-          mean = hn::Min(along / k, set(1.0f));
-  const M tilts = hn::Gt(ww, set(1e-5f));
-  const V inverse = set(1.0f) / hn::Sqrt(hn::IfThenElse(tilts, hn::MulAdd(uw, uw, ww * ww), set(1.0f)));
-  const V tx = hn::IfThenElseZero(tilts, uw * inverse), ty = hn::IfThenElse(tilts, ww * inverse, set(1.0f));
-  const V middle = hn::Neg(mean) * tx;
-  const V reach = hn::Sqrt(hn::Max(hn::MulAdd(middle, middle, set(1.0f) - mean * mean), set(0.0f)));
-  const M apart = hn::Gt(reach, set(1e-4f));
-  const V share = hn::IfThenElse(
-      apart, clamped(set(0.5f) - set(0.5f) * middle / hn::IfThenElse(apart, reach, set(1.0f)), 0.0f, 1.0f),
-      set(0.5f));
-  const Vector way = plus(times(u, tx), times(w, ty)), base = times(u, mean);
-  return {{unit(plus(base, times(way, middle + reach))), unit(plus(base, times(way, middle - reach)))},
-          {share * strength, (set(1.0f) - share) * strength},
-          hn::IfThenElseZero(are, s)};
+/// q and its least eigenvalue, with its eigenvector.
+HWY_INLINE void findPlane(Color& c) {
+  const V one = set(2.0466534f), off = set(1.3729382f), on = set(0.7926655f);
+  c.all = set(3.5449077f) * c.light[0];
+  c.v = {one * c.light[3], one * c.light[1], one * c.light[2]};
+  const V zz = on * c.light[6], xx_yy = off * c.light[8];
+  c.q = {xx_yy - zz, hn::Neg(xx_yy) - zz, zz + zz, off * c.light[4], off * c.light[7], off * c.light[5]};
+  const V size = sizeOf(c.q), shrink = inverse(hn::Max(size, set(1e-30f)));
+  const Symmetric n{c.q.xx * shrink, c.q.yy * shrink, c.q.zz * shrink,
+                    c.q.xy * shrink, c.q.xz * shrink, c.q.yz * shrink};
+  const V value = leastEigenvalue(n);
+  c.across = eigenvectorOf(n, value);
+  c.least = size * value;
 }
 
-HWY_INLINE V glossBeyond(const Beams& beams, V n, V shown, const Vector& mirror) {
+/// N in the plane, u along V.
+HWY_INLINE void findEllipse(Color& c) {
+  const Vector in_plane = plus(c.v, times(c.across, hn::Neg(dot(c.v, c.across))));
+  const V along = root(dot(in_plane, in_plane));
+  c.are = hn::And(hn::Lt(c.least, set(-1e-4f) * c.all), hn::Gt(along, set(1e-3f) * c.all));
+  c.least = hn::IfThenElse(c.are, c.least, set(-1.0f));
+  c.along = hn::IfThenElse(c.are, along, set(1.0f));
+  c.u = times(in_plane, inverse(c.along));
+  c.w = cross(c.across, c.u);
+  const V scale = inverse(set(-3.0f) * c.least), less = hn::Neg(c.least);
+  const Vector nu = times(plus(times(c.q, c.u), times(c.u, less)), scale),
+               nw = times(plus(times(c.q, c.w), times(c.w, less)), scale);
+  c.uu = dot(c.u, nu), c.uw = dot(c.u, nw), c.ww = dot(c.w, nw);
+}
+
+HWY_INLINE void findStrength(Color& c) {
+  const V k = c.along * root(hn::Max(c.ww, set(1e-4f)) *
+                             inverse(hn::Max(c.uu * c.ww - c.uw * c.uw, set(1e-4f) * c.uu)));
+  const V to_k = inverse(k), ratio = clamped(set(-2.0f) * c.least * to_k, 0.0f, 0.9995f);
+  const V s = hn::Min(exponentOfRatio(ratio), set(kSharpestBeam));
+  c.strength[0] = hn::Min(k * (s + set(2.0f)) * inverse(s + set(1.0f)), c.all);
+  c.mean = hn::Min(c.along * to_k, set(1.0f));
+  c.exponent = hn::IfThenElseZero(c.are, s);
+}
+
+HWY_INLINE void findBeams(Color& c) {
+  const M tilts = hn::Gt(c.ww, set(1e-5f));
+  const V shorten = inverseRoot(hn::IfThenElse(tilts, hn::MulAdd(c.uw, c.uw, c.ww * c.ww), set(1.0f)));
+  const V tx = hn::IfThenElseZero(tilts, c.uw * shorten),
+          ty = hn::IfThenElse(tilts, c.ww * shorten, set(1.0f));
+  const V middle = hn::Neg(c.mean) * tx;
+  const V reach = root(hn::Max(hn::MulAdd(middle, middle, set(1.0f) - c.mean * c.mean), set(0.0f)));
+  const M apart = hn::Gt(reach, set(1e-4f));
+  const V lean = set(0.5f) * middle * inverse(hn::IfThenElse(apart, reach, set(1.0f)));
+  const V share = hn::IfThenElse(apart, clamped(set(0.5f) - lean, 0.0f, 1.0f), set(0.5f));
+  const Vector way = plus(times(c.u, tx), times(c.w, ty)), base = times(c.u, c.mean),
+               none{set(0.0f), set(0.0f), set(1.0f)};
+  c.direction[0] = choose(c.are, unit(plus(base, times(way, middle + reach))), none);
+  c.direction[1] = choose(c.are, unit(plus(base, times(way, middle - reach))), none);
+  const V strength = c.strength[0];
+  c.strength[0] = hn::IfThenElseZero(c.are, share * strength);
+  c.strength[1] = hn::IfThenElseZero(c.are, (set(1.0f) - share) * strength);
+}
+
+/// A Phong lobe, and as three bands show it.
+struct Lobe {
+  V one, shown_one, shown_two;
+};
+
+HWY_INLINE V glossBeyond(const Color& beams, const Lobe& phong, const Vector& mirror) {
   const D d;
-  const V one = bandOne(beams.exponent), m = exponentOfBandOne(one * bandOne(n));
-  const V first = set(3.0f) * one * bandOne(shown),
-          second = set(2.5f) * bandTwo(beams.exponent) * bandTwo(shown);
+  const V one = bandOne(beams.exponent), m = exponentOfBandOne(one * phong.one);
+  const V first = set(3.0f) * one * phong.shown_one,
+          second = set(2.5f) * bandTwo(beams.exponent) * phong.shown_two;
   V sum = set(0.0f);
   for (int i = 0; i < 2; ++i) {
     const V c = dot(mirror, beams.direction[i]);
@@ -176,9 +225,9 @@ HWY_INLINE V glossBeyond(const Beams& beams, V n, V shown, const Vector& mirror)
   return t * t * hn::NegMulAdd(set(2.0f), t, set(3.0f)) * sum;
 }
 
-HWY_INLINE V irradianceBeyond(const Beams& beams, const Vector& normal) {
-  const V s = beams.exponent, b4 = bandTwo(s) * (s - set(2.0f)) / (s + set(5.0f)),
-          b6 = b4 * (s - set(4.0f)) / (s + set(7.0f));
+HWY_INLINE V irradianceBeyond(const Color& beams, const Vector& normal) {
+  const V s = beams.exponent, b4 = bandTwo(s) * (s - set(2.0f)) * inverse(s + set(5.0f)),
+          b6 = b4 * (s - set(4.0f)) * inverse(s + set(7.0f));
   const V by4 = set(9.0f / 96.0f) * hn::Max(b4, set(0.0f)),
           by6 = set(13.0f / 256.0f) * hn::Max(b6, set(0.0f));
   V sum = set(0.0f);
@@ -230,7 +279,7 @@ HWY_INLINE void shadeBlock(const HostSurfaces& s, const HostShading& shading, co
   const V weight = values[4 * kFieldLayers - 1];
   const M lit = hn::Gt(weight, set(0.0f));
   const V scale =
-      hn::IfThenElseZero(lit, set(1.0f / shading.exposure) / hn::IfThenElse(lit, weight, set(1.0f)));
+      hn::IfThenElseZero(lit, set(1.0f / shading.exposure) * inverse(hn::IfThenElse(lit, weight, set(1.0f))));
 
   const Vector position{hn::LoadU(d, &s.x[block.surface]), hn::LoadU(d, &s.y[block.surface]),
                         hn::LoadU(d, &s.z[block.surface])};
@@ -245,21 +294,25 @@ HWY_INLINE void shadeBlock(const HostSurfaces& s, const HostShading& shading, co
   const Vector mirror{hn::MulSub(twice, normal.x, to_eye.x), hn::MulSub(twice, normal.y, to_eye.y),
                       hn::MulSub(twice, normal.z, to_eye.z)};
   const V alpha = diffuse[3] * diffuse[3], alpha2 = hn::Max(alpha * alpha, set(1e-12f));
-  const V exponent = clamped(set(2.0f) / alpha2 - set(2.0f), 1.0f, 1e6f),
+  const V exponent = clamped(hn::MulSub(set(2.0f), inverse(alpha2), set(2.0f)), 1.0f, 1e6f),
           shown = hn::Min(exponent, set(kSharpestLobe));
-  const V one = bandOne(shown), two = bandTwo(shown);
+  const Lobe phong{bandOne(exponent), bandOne(shown), bandTwo(shown)};
 
   V to_diffuse[3], to_gloss[3];
+  Color colors[3];
   for (int c = 0; c < 3; ++c) {
-    Bands light;
+    Bands& light = colors[c].light;
     for (int i = 0; i < 9; ++i) light[std::size_t(i)] = values[3 * i + c] * scale;
     to_diffuse[c] = convolved(light, normal, set(kPi), set(kPi * 2.0f / 3.0f), set(kPi * 0.25f));
-    to_gloss[c] = convolved(light, mirror, set(1.0f), one, two);
-    if (shading.beams) {
-      const Beams beams = beamsOf(light);
-      to_diffuse[c] = to_diffuse[c] + irradianceBeyond(beams, normal);
-      to_gloss[c] = to_gloss[c] + glossBeyond(beams, exponent, shown, mirror);
-    }
+    to_gloss[c] = convolved(light, mirror, set(1.0f), phong.shown_one, phong.shown_two);
+  }
+  if (shading.beams) {
+    for (Color& color : colors) findPlane(color);
+    for (Color& color : colors) findEllipse(color);
+    for (Color& color : colors) findStrength(color);
+    for (Color& color : colors) findBeams(color);
+    for (int c = 0; c < 3; ++c) to_diffuse[c] = to_diffuse[c] + irradianceBeyond(colors[c], normal);
+    for (int c = 0; c < 3; ++c) to_gloss[c] = to_gloss[c] + glossBeyond(colors[c], phong, mirror);
   }
   writeColor(to_diffuse, irradiance);
   writeColor(to_gloss, gloss);
