@@ -60,7 +60,7 @@ frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::Fram
   const Light light = recordGather(graph, inputs, plan, walks, visibility_);
   if (plan.views) recordViews(graph, plan, light.values, light.exposure, "radiance_filter.raw", false);
   HostResult result;
-  if (filtersOnHost(graph.device(), plan, light)) {
+  if (filtersOnHost(graph.device(), plan)) {
     result = recordOnHost(graph, inputs, plan, light, surfaces_);
   } else {
     result.filtered = recordFilter(graph, inputs, plan, light);

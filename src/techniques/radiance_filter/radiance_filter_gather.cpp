@@ -10,6 +10,8 @@ namespace gloam::radiance_filter {
 
 namespace {
 
+constexpr VkFormat kValueFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
 /// Steps of a sum over sets, as radiance_filter_gather.glsl knows them.
 enum Step : int { kAlone, kFirst, kFurther, kLast };
 
@@ -20,7 +22,9 @@ struct Work {
   const vpls::Walks& walks;
   gpu::BufferRef points;
   gpu::ImageRef values, sums;
+  gpu::BufferRef host_values;  ///< in place of `values`, of which one texel is there then
   gpu::BufferRef exposure;
+  bool for_host;
 };
 
 std::uint32_t pointsIn(const Interleaving& in) {
@@ -74,12 +78,14 @@ void recordSet(const Work& work, visibility::Visibility& visibility, std::uint32
         .read("diffuse", work.inputs.gbuffer.diffuse);
   (step == kAlone || step == kFirst ? pass.write("sums", work.sums) : pass.readWrite("sums", work.sums))
       .write("values", work.values)
+      .write("host_values", work.host_values)
       .read("points", work.points)
       .read("rows", work.walks.rows)
       .read("sets", work.walks.sets)
       .read("visible", visible)
       .read("exposure", work.exposure)
       .specialize("step", int(step))
+      .specialize("for_host", work.for_host)
       .specialize("parts", int(work.plan.parts.size()));
   overPoints(pass, in);
 }
@@ -112,21 +118,28 @@ gpu::ImageRef createValues(gpu::FrameGraph& graph, const Plan& plan, const std::
 
 Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                    const vpls::Walks& walks, visibility::Visibility& visibility) {
-  const bool sums = plan.brute() && walks.set_count > 1;
+  const bool sums = plan.brute() && walks.set_count > 1, for_host = filtersOnHost(graph.device(), plan);
   const Interleaving in = interleavingOf(plan, inputs.scene, plan.brute() ? 0 : kEverySet);
+  const auto none = [&](const char* name, VkFormat format) {
+    return graph.create(name, gpu::ImageDesc{.format = format, .layers = 2});
+  };
+  const auto shared = [&](const char* name, std::size_t bytes) {
+    return graph.create(name, gpu::BufferDesc{.bytes = bytes, .host_visible = true});
+  };
+  const std::size_t halves = plan.pixels() * std::size_t(plan.layers()) * plan.parts.size() * 4;
   const Work work{
       graph,
       inputs,
       plan,
       walks,
-      graph.create("radiance_filter.points",
-                   gpu::BufferDesc{.bytes = std::size_t(pointsIn(in)) * sizeof(visibility::SightPoint),
-                                   .host_visible = true}),
-      createValues(graph, plan, "radiance_filter.values", VK_FORMAT_R16G16B16A16_SFLOAT),
+      shared("radiance_filter.points", std::size_t(pointsIn(in)) * sizeof(visibility::SightPoint)),
+      for_host ? none("radiance_filter.no_values", kValueFormat)
+               : createValues(graph, plan, "radiance_filter.values", kValueFormat),
       sums ? createValues(graph, plan, "radiance_filter.sums", VK_FORMAT_R32G32B32A32_SFLOAT)
-           : graph.create("radiance_filter.no_sums",
-                          gpu::ImageDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .layers = 2}),
-      graph.create("radiance_filter.exposure", gpu::BufferDesc{.bytes = sizeof(float), .host_visible = true})};
+           : none("radiance_filter.no_sums", VK_FORMAT_R32G32B32A32_SFLOAT),
+      shared("radiance_filter.host_values", for_host ? halves * sizeof(std::uint16_t) : sizeof(glm::uvec2)),
+      shared("radiance_filter.exposure", sizeof(float)),
+      for_host};
   if (!plan.brute()) {
     recordSet(work, visibility, kEverySet, kAlone);
   } else {
@@ -137,7 +150,13 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
                 : s + 1 == walks.set_count ? kLast
                                            : kFurther);
   }
-  return {work.values, work.exposure, plan.brute() ? gpu::BufferRef() : work.points};
+  if (!for_host) return {.values = work.values, .exposure = work.exposure};
+  Light light{.exposure = work.exposure, .points = work.points, .host_values = work.host_values};
+  if (plan.views) {
+    light.values = createValues(graph, plan, "radiance_filter.values", kValueFormat);
+    graph.copy("radiance_filter.views", light.host_values, light.values);
+  }
+  return light;
 }
 
 }  // namespace gloam::radiance_filter

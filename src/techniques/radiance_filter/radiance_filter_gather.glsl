@@ -8,6 +8,7 @@
 
 layout(constant_id = 0) const int step = 0;  // 0: one set; else one of a sum over sets: 1 the first, 2, 3 the last
 layout(constant_id = 1) const int parts = 1;
+layout(constant_id = 2) const bool for_host = false;  // values go where the host reads them
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) readonly buffer Points { SightPoint at[]; } points;
@@ -17,6 +18,7 @@ layout(scalar, set = 0, binding = 3) readonly buffer Visible { uint at[]; } visi
 layout(scalar, set = 0, binding = 4) readonly buffer Exposure { float at[]; } exposure;
 layout(set = 0, binding = 5) uniform writeonly image2DArray values;
 layout(set = 0, binding = 6, rgba32f) uniform image2DArray sums;
+layout(scalar, set = 0, binding = 10) writeonly buffer HostValues { uvec2 at[]; } host_values;  // layers of rows of four halves
 
 const float kLargestHalf = 65504.0;
 
@@ -55,10 +57,17 @@ void keep(float sum[GLOAM_VALUES], int part, ivec2 pixel, float weight) {
     vec4 four = vec4(sum[4 * i], sum[4 * i + 1], sum[4 * i + 2], sum[4 * i + 3]);
     if (step == 2 || step == 3) four += imageLoad(sums, place);
     if (i == layers - 1) four.a = weight, scale.a = 1.0;
-    if (step == 1 || step == 2)
+    if (step == 1 || step == 2) {
       imageStore(sums, place, four);
-    else
-      imageStore(values, place, clamp(four * scale, -kLargestHalf, kLargestHalf));
+      continue;
+    }
+    vec4 kept = clamp(four * scale, -kLargestHalf, kLargestHalf);
+    if (for_host) {
+      uint row = uint(place.z) * push.interleaving.height + uint(place.y);
+      host_values.at[row * push.interleaving.width + uint(place.x)] = uvec2(packHalf2x16(kept.xy), packHalf2x16(kept.zw));
+    } else {
+      imageStore(values, place, kept);
+    }
   }
 }
 

@@ -61,8 +61,8 @@ struct PartRefs {
 
 }  // namespace
 
-bool filtersOnHost(const gpu::Device& device, const Plan& plan, const Light& light) {
-  return light.points && device.info().software && plan.means != visibility::Means::kDevice &&
+bool filtersOnHost(const gpu::Device& device, const Plan& plan) {
+  return !plan.brute() && device.info().software && plan.means != visibility::Means::kDevice &&
          plan.filter == Filter::kTwoPass && plan.taps != glm::ivec2(1) &&
          plan.mode != Mode::kIrradianceNormals;
 }
@@ -71,11 +71,11 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
                         const Light& light, HostSurfaces& surfaces) {
   constexpr std::size_t kFour = 4 * sizeof(std::uint16_t);
   const Exchange exchange{graph, plan.pixels()};
-  const auto layers = std::size_t(light.values.range().layers);
+  const std::size_t layers = std::size_t(plan.layers()) * plan.parts.size();
   const bool shades = plan.keepsField();
-  const gpu::BufferRef points = light.points, view = inputs.view, exposure = light.exposure;
-  const gpu::BufferRef values = exchange.read("radiance_filter.host_values", light.values, layers * kFour),
-                       halfway = exchange.make("radiance_filter.host_halfway", layers * kFour),
+  const gpu::BufferRef points = light.points, values = light.host_values, exposure = light.exposure,
+                       view = inputs.view;
+  const gpu::BufferRef halfway = exchange.make("radiance_filter.host_halfway", layers * kFour),
                        filtered = exchange.make("radiance_filter.host_filtered", layers * kFour),
                        ids =
                            exchange.read("radiance_filter.host_ids", inputs.gbuffer.ids, sizeof(glm::uvec2));
@@ -118,7 +118,7 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
 
   HostResult result;
   if (!shades || plan.views) {
-    result.filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
+    result.filtered = createValues(graph, plan, "radiance_filter.filtered", VK_FORMAT_R16G16B16A16_SFLOAT);
     graph.copy(kPass, filtered, result.filtered);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -45,10 +45,15 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
 gpu::ImageRef createValues(gpu::FrameGraph& graph, const Plan& plan, const std::string& name,
                            VkFormat format);
 
+/// True: the host does the two passes of RF-4, and of a field RF-5.
+bool filtersOnHost(const gpu::Device& device, const Plan& plan);
+
 struct Light {
   gpu::ImageRef values;     ///< layers of all parts (radiance_filter_shared.h), times the exposure
   gpu::BufferRef exposure;  ///< one float
-  gpu::BufferRef points;    ///< SightPoint, by sets; none: the filter runs on the device
+  // For the host, where `values` is there for views alone.
+  gpu::BufferRef points;       ///< SightPoint, by sets
+  gpu::BufferRef host_values;  ///< halves, layers one after another
 };
 
 /// RF-2, RF-3: "radiance_filter.points", ".visibility", ".exposure", ".gather"; in a brute mode once a set.
@@ -61,8 +66,6 @@ struct Shaded {
 };
 Shaded createShaded(gpu::FrameGraph& graph, const Plan& plan, std::size_t part);
 
-/// True: the host does the two passes of RF-4, and of a field RF-5.
-bool filtersOnHost(const gpu::Device& device, const Plan& plan, const Light& light);
 struct HostResult {
   gpu::ImageRef filtered;      ///< where views want it, or what is filtered is light through lobes
   std::vector<Shaded> shaded;  ///< of each part; none where `filtered` is yet to be shaded
