@@ -30,12 +30,14 @@ const BenchSuite* findSuite(const std::string& name) {
   return nullptr;
 }
 
-Timings measure(BenchStage& stage, int frames, Console& console) {
+Timings measure(BenchStage& stage, int frames, float orbit_step_deg, Console& console) {
   Timings timings, warm_up;
+  const PosedCamera first = stage.camera;
   const Progress progress = console.progress();
   for (int i = -kWarmUpFrames; i < frames; ++i) {
     if (interrupted()) throw Interrupted("interrupted: no figures");
     progress.report(double(i + kWarmUpFrames) / double(frames + kWarmUpFrames), "bench");
+    stage.camera = orbit(first, stage.posed, glm::radians(orbit_step_deg * float(i)));
     drawTimed(stage, stage.options, i < 0 ? warm_up : timings);
     console.release();
   }
@@ -45,7 +47,7 @@ Timings measure(BenchStage& stage, int frames, Console& console) {
 
 int benchTechnique(const BenchChoice& choice, Console& console) {
   BenchStage stage = prepareBench(choice, console);
-  const Timings timings = measure(stage, choice.frames, console);
+  const Timings timings = measure(stage, choice.frames, choice.orbit_step_deg, console);
   checkValidation(stage.renderer);
 
   const std::string size = fmt::format("{}x{}", stage.options.width, stage.options.height);
@@ -126,6 +128,11 @@ std::function<int()> declareBench(CLI::App& app, Console& console) {
   addSceneOptions(app, choice->scene);
   addInteger(app, "--frames", choice->frames, {1, 100000}, "N", "measured, after two to warm up")
       ->default_str("20");
+  addNumber(app, "--orbit-step", choice->orbit_step_deg, {-360.0f, 360.0f}, "DEG",
+            "the camera turns so far about the scene from frame to frame; what lamps alone see is kept then, "
+            "as in use; "
+            "0: all of every frame is drawn anew")
+      ->default_str("0");
   app.add_flag("--paper", choice->paper,
                fmt::format("the figures of the technique's paper, ours beside theirs ({})",
                            listed(techniquesWithPaper())));

@@ -26,6 +26,7 @@ struct BenchChoice {
   std::string device;
   int frames = 20;
   bool paper = false, scaling = false;
+  float orbit_step_deg = 0.0f;  ///< that the camera turns about the scene from frame to frame
   std::string spheres;  ///< a file, in place of fitting
   std::string output;   ///< of a plot
   std::string figures;  ///< a folder: the paper's experiments against the reference

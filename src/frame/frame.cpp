@@ -55,7 +55,7 @@ FrameImages recordFrame(gpu::FrameGraph& graph, GpuScene& scene, const Environme
   Receivers receivers(graph, gbuffer, view_buffer);
   const FrameInputs inputs{scene,       gbuffer,  receivers,       shadow_maps,      environment,
                            view_buffer, warnings, options.proxies, options.emission, options.flats,
-                           options.show};
+                           options.show, scene_key};
   const Lighting lighting = technique(graph, inputs);
 
   // Light becomes colour, samples become pixels.

@@ -30,6 +30,7 @@ struct FrameInputs {
   const Emission* emission = nullptr;   ///< what they send; null unless someone made it
   std::span<const Patch> flats = {};    ///< what has no proxies, as blockers of light; with proxies
   std::string_view show = {};           ///< an image to look at: pictures drawn for that alone are drawn then
+  std::string_view scene_key = {};      ///< standing.h's, for images kept while the scene stands; empty: none are
 };
 
 /// First surface lit by a source, or by other surfaces.

@@ -114,6 +114,40 @@ TEST(Renderer, WhatStillStandsIsNotDrawnAgain) {
   expect(true, true);
 }
 
+/// What lamps see and reflect does not hang on the camera, but on the lamps and on all that stands.
+TEST(Renderer, ReflectiveMapsStandWhileLampsAndSceneDo) {
+  const Scene scene = loadScene("builtin:cornell?detail=0.25");
+  renderer().setScene(scene);
+  PosedScene posed = pose(scene, 0.0f);
+  const PosedCamera camera = cameraOf(posed);
+  RenderOptions options{.width = 32, .height = 32, .technique = "splatting", .timings = true};
+  options.settings = Settings(technique("splatting").options);
+  float angle_rad = 0.0f;
+  const auto expect = [&](bool drawn) {
+    const RenderedFrame frame = renderer().render(posed, orbit(camera, posed, angle_rad += 0.1f), options);
+    EXPECT_EQ(has(frame, "vpls.maps"), drawn);
+    EXPECT_EQ(has(frame, "vpls.reflect"), drawn);
+    return frame;
+  };
+  expect(true);
+  const RenderedFrame kept = expect(false);
+  renderer().setScene(scene);
+  angle_rad -= 0.1f;
+  EXPECT_EQ(expect(true).layers.image("indirect", {"R"}, "frame").pixels,
+            kept.layers.image("indirect", {"R"}, "frame").pixels);
+  posed.instances[0].world_from_object[3].y += 0.01f;
+  expect(true);
+  expect(false);
+  ASSERT_FALSE(posed.lights.empty());
+  posed.lights[0].light.intensity *= 0.5f;
+  expect(true);
+  posed.lights[0].position.x += 0.01f;
+  expect(true);
+  expect(false);
+  options.show = "vpls.diffuse";  // what they are made from is made again
+  expect(true);
+}
+
 /// Vertices of what bends come anew every frame, in two places by turns: what counts is whether they are others.
 TEST(Renderer, WhatBendsStandsWhileItsVerticesDo) {
   const Scene scene = loadScene("builtin:walker?detail=0.25");

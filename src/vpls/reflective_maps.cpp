@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "frame/view.h"
+#include "gpu/shader_reload.h"
 #include "shaders/frame_shaders.h"
 #include "shaders/vpls_shaders.h"
 #include "vpls/vpls_shared.h"
@@ -118,6 +119,22 @@ void drawMap(gpu::FrameGraph& graph, const frame::GpuScene& scene, const Targets
   }
 }
 
+/// Of all that the maps show; empty where someone looks at the pictures that they are made from.
+std::string keyOf(const frame::FrameInputs& inputs, const std::vector<ReflectiveMap>& maps) {
+  if (inputs.scene_key.empty() || inputs.show.starts_with("vpls.")) return {};
+  std::string key(inputs.scene_key);
+  const auto append = [&key](const auto& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const gpu::ShaderCode* shader : {&frame_gbuffer_vert_spv, &frame_gbuffer_frag_spv, &vpls_reflect_spv})
+    append(&gpu::currentShader(*shader));  // shaders may be edited while a program runs
+  for (const ReflectiveMap& map : maps) {
+    append(map.view);
+    append(inputs.shadow_maps.lights[map.light]);
+  }
+  return key;
+}
+
 }  // namespace
 
 std::vector<ReflectiveMap> planReflectiveMaps(std::span<const frame::LightRow> lights,
@@ -156,18 +173,29 @@ ReflectiveMaps recordReflectiveMaps(gpu::FrameGraph& graph, const frame::FrameIn
   if (result.maps.empty()) return result;
   const int count = int(result.maps.size());
   const int width = std::min(count, kColumns) * size, height = (count + kColumns - 1) / kColumns * size;
-  const auto image = [&](const char* name, VkFormat format) {
-    return graph.create(name, gpu::ImageDesc{.format = format, .width = width, .height = height});
+  const auto descOf = [&](VkFormat format) {
+    return gpu::ImageDesc{.format = format, .width = width, .height = height};
   };
+  // Where neither the lamps nor the scene have changed, what they reflect has not.
+  const std::string key = keyOf(inputs, result.maps);
+  bool stands = true;
+  const auto keep = [&](const char* name, VkFormat format) {
+    const gpu::KeptImage kept = graph.keep(name, descOf(format), key);
+    stands &= kept.holds;
+    return kept.image;
+  };
+  result.position = keep("vpls.position", VK_FORMAT_R32G32B32A32_SFLOAT);
+  result.normal = keep("vpls.normal", VK_FORMAT_R16G16B16A16_SFLOAT);
+  result.flux = keep("vpls.flux", VK_FORMAT_R32G32B32A32_SFLOAT);
+  if (stands) return result;
+
+  const auto image = [&](const char* name, VkFormat format) { return graph.create(name, descOf(format)); };
   const Targets targets{image("vpls.depth", VK_FORMAT_D32_SFLOAT),
                         image("vpls.ids", VK_FORMAT_R32G32_UINT),
                         image("vpls.normals_packed", VK_FORMAT_R32G32_UINT),
                         image("vpls.diffuse", VK_FORMAT_R16G16B16A16_SFLOAT),
                         image("vpls.specular", VK_FORMAT_R16G16B16A16_SFLOAT),
                         image("vpls.emission", VK_FORMAT_R16G16B16A16_SFLOAT)};
-  result.position = image("vpls.position", VK_FORMAT_R32G32B32A32_SFLOAT);
-  result.normal = image("vpls.normal", VK_FORMAT_R16G16B16A16_SFLOAT);
-  result.flux = image("vpls.flux", VK_FORMAT_R32G32B32A32_SFLOAT);
 
   std::vector<std::byte> views(result.maps.size() * kViewStride);
   for (std::size_t i = 0; i < result.maps.size(); ++i)
