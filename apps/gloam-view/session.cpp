@@ -115,6 +115,7 @@ void Session::openChoice(const ViewerChoice& choice, std::function<void()> then)
         std::make_shared<const DistantLight>(mapLight(cli::chooseBaseEnvironment(scene, light, console)));
     const PosedScene posed = pose(scene, choice.view.time_s);
     const PosedCamera posed_camera = cli::chooseCamera(posed, choice.view, console);
+    cli::remarkBuriedLamps(scene, posed, posed_camera, console);
     const cli::NodeMoves moves = cli::movesIn(scene, choice.moves);
     auto loaded = makeLoadedScene({.name = choice.scene.name,
                                    .ground = choice.scene.ground,

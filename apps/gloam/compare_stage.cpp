@@ -54,6 +54,7 @@ CompareStage prepareCompareStage(const CompareChoice& choice, std::vector<Conten
   stage.environment = chooseEnvironment(stage.scene, choice.light, console, choice.view.time_s);
   stage.posed = pose(stage.scene, choice.view.time_s);
   stage.camera = chooseCamera(stage.posed, choice.view, console);
+  remarkBuriedLamps(stage.scene, stage.posed, stage.camera, console);
   leaveOutUnbakeable(contenders, stage.scene, stage.posed, console);
   stage.bounces = reference_bounces.value_or(chooseBounces(choice, stage, contenders));
   stage.glowing = glowingInstances(stage.scene, stage.posed);

@@ -133,7 +133,9 @@ Stage prepareStage(const ReferenceChoice& choice, const std::vector<PlannedFrame
   stage.light = choice.light;
   stage.environment = chooseBaseEnvironment(stage.scene, choice.light, console);
   stage.environment_name = environmentAt(stage.environment, choice.light, frames.front().time_s).name;
-  stage.camera = chooseCamera(pose(stage.scene, frames.front().time_s), choice.view, console);
+  const PosedScene posed = pose(stage.scene, frames.front().time_s);
+  stage.camera = chooseCamera(posed, choice.view, console);
+  remarkBuriedLamps(stage.scene, posed, stage.camera, console);
   if (choice.motion.animate && stage.scene.animations.empty() && !choice.light.lights.moves()) {
     console.remark("--animate: the scene holds no animation");
   }

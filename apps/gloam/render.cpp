@@ -63,6 +63,7 @@ Stage prepareStage(const RenderChoice& choice, float first_time_s, Console& cons
   stage.base = mapLight(chooseBaseEnvironment(stage.scene, choice.light, console));
   const PosedScene posed = pose(stage.scene, first_time_s);
   stage.camera = chooseCamera(posed, choice.view, console);
+  remarkBuriedLamps(stage.scene, posed, stage.camera, console);
   if (choice.layer.empty()) {
     Coverage in_scene = lightIn(stage.scene, posed, *stage.base.map, 1);
     in_scene.environment_direct |= !choice.light.lights.empty();

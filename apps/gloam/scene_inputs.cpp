@@ -249,6 +249,12 @@ PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Cons
   return camera;
 }
 
+void remarkBuriedLamps(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
+                       Console& console) {
+  for (const std::string& line : buriedLamps(scene, posed, glm::vec3(camera.world_from_view[3])))
+    console.remark(line);
+}
+
 std::string sceneStem(const std::string& name) {
   constexpr std::string_view kBuiltin = "builtin:";
   if (name.starts_with(kBuiltin)) {  // "builtin:spheres?detail=2"

@@ -63,6 +63,9 @@ void remarkLostLight(const Scene& scene, Console& console);
 
 /// The camera that was asked for; else the scene's first; else one that shows all of it, and says so.
 PosedCamera chooseCamera(const PosedScene& posed, const ViewChoice& choice, Console& console);
+/// Says which lamps send no light because they stand inside something.
+void remarkBuriedLamps(const Scene& scene, const PosedScene& posed, const PosedCamera& camera,
+                       Console& console);
 
 /// "bunny" for models/bunny.glb, "cornell" for builtin:cornell.
 std::string sceneStem(const std::string& name);

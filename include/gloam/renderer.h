@@ -89,6 +89,11 @@ struct HostDevice {
   unsigned queue_family = 0;
 };
 
+// ---- Scenes that show nothing ---------------------------------------------------------------------------------------
+
+/// A line for each point or spot lamp that stands inside a closed mesh, facing outward, of which the eye is outside.
+std::vector<std::string> buriedLamps(const Scene& scene, const PosedScene& posed, const glm::vec3& eye);
+
 // ---- Rendering ------------------------------------------------------------------------------------------------------
 
 struct RenderOptions {
