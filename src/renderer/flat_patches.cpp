@@ -1,65 +1,48 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Surface points, spread by area, go into boxes of one size by where they lie and which of six ways they face; each box becomes the
-// rectangle that bounds its points, scaled to their area.
+// Surface points, spread by area, are grouped by where they lie and which of six ways they face (flat_groups.h): what blocks by cells of
+// one size, what sends where it sends most. Each group becomes the rectangle that bounds its points, scaled to their area.
 #include "renderer/flat_patches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <tuple>
 
-#include "renderer/flat_points.h"
+#include "renderer/flat_groups.h"
 #include "scene/transforms.h"
 
 namespace gloam {
 
 namespace {
 
-constexpr float kThin = 0.2f;          // thickness over width of what blocks as one side
-constexpr float kLeastFilled = 0.02f;  // of a box's side squared
+constexpr float kThin = 0.2f;       // thickness over width of what blocks as one side
+constexpr float kThinnest = 1e-3f;  // of a cell's side: half of a rectangle's width, at least
 
-/// Points of one box.
-struct Box {
-  glm::vec3 place{0.0f}, normal{0.0f}, albedo{0.0f}, emission{0.0f};
-  glm::vec2 low{INFINITY}, high{-INFINITY};
-  float depth = 0.0f, area = 0.0f;
-};
-
-std::vector<frame::Patch> patchesOf(const std::vector<FlatPoint>& points, const glm::mat3& axes, float side) {
-  std::map<std::tuple<int, int, int, int>, Box> boxes;
-  const glm::mat3 to_own = glm::transpose(axes);
-  for (const FlatPoint& point : points) {
-    const glm::vec3 q = to_own * point.place, m = to_own * point.normal, size = glm::abs(m);
-    const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const int u = (w + 1) % 3, v = (w + 2) % 3;
-    const auto cell = [&](float x) { return int(std::floor(std::clamp(x / side + 0.37f, -1e6f, 1e6f))); };
-    Box& box = boxes[{2 * w + (m[w] > 0.0f ? 1 : 0), cell(q[u]), cell(q[v]), cell(q[w])}];
-    box.low = glm::min(box.low, {q[u], q[v]}), box.high = glm::max(box.high, {q[u], q[v]});
-    box.depth += point.area * q[w], box.area += point.area;
-    box.normal += point.area * point.normal, box.albedo += point.area * point.albedo;
-    box.emission += point.area * point.emission;
+/// The rectangle that bounds these points, scaled to their area; none where they face all ways.
+void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest,
+              std::vector<frame::Patch>& patches) {
+  glm::vec3 normal(0.0f), albedo(0.0f), emission(0.0f);
+  float depth = 0.0f;
+  const int w = group.axis, u = (w + 1) % 3, v = (w + 2) % 3;
+  for (const FlatPoint& point : group.points) {
+    normal += point.area * point.normal, albedo += point.area * point.albedo;
+    emission += point.area * point.emission, depth += point.area * glm::dot(axes[w], point.place);
   }
-  std::vector<frame::Patch> patches;
-  for (const auto& [key, box] : boxes) {
-    if (box.area < kLeastFilled * side * side || !(glm::length(box.normal) > 0.0f)) continue;
-    const int w = std::get<0>(key) / 2, u = (w + 1) % 3, v = (w + 2) % 3;
-    const glm::vec2 middle = 0.5f * (box.low + box.high);
-    const glm::vec2 half = glm::max(0.5f * (box.high - box.low), glm::vec2(1e-3f * side));
-    frame::Patch patch;
-    patch.normal = glm::normalize(box.normal);
-    patch.center = middle.x * axes[u] + middle.y * axes[v] + box.depth / box.area * axes[w];
-    const glm::vec3 along = glm::normalize(axes[u] - glm::dot(axes[u], patch.normal) * patch.normal);
-    const float scale = std::sqrt(box.area / (4.0f * half.x * half.y));
-    patch.half_u = scale * half.x * along;
-    patch.half_v = scale * half.y * glm::cross(patch.normal, along);
-    patch.albedo = box.albedo / box.area;
-    patch.glow = box.emission / box.area;
-    patches.push_back(patch);
-  }
-  return patches;
+  if (!(glm::length(normal) > 0.0f)) return;
+  const glm::vec3 middle = 0.5f * (group.low + group.high);
+  const glm::vec3 half = glm::max(0.5f * (group.high - group.low), glm::vec3(thinnest));
+  frame::Patch patch;
+  patch.normal = glm::normalize(normal);
+  patch.center = middle[u] * axes[u] + middle[v] * axes[v] + depth / group.area * axes[w];
+  const glm::vec3 along = glm::normalize(axes[u] - glm::dot(axes[u], patch.normal) * patch.normal);
+  const float scale = std::sqrt(group.area / (4.0f * half[u] * half[v]));
+  patch.half_u = scale * half[u] * along;
+  patch.half_v = scale * half[v] * glm::cross(patch.normal, along);
+  patch.albedo = albedo / group.area;
+  patch.glow = emission / group.area;
+  patches.push_back(patch);
 }
 
 frame::Patch moved(const frame::Patch& patch, const glm::mat4& matrix) {
@@ -126,6 +109,17 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
   if (instances.empty()) return;
   std::vector<std::vector<FlatPoint>> points;
   for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kFlatPoints));
+  std::vector<glm::mat3> axes;
+  for (const Instance* instance : instances) axes.push_back(rotationFactor(instance->world_from_object));
+  const auto keep = [&](const std::vector<std::vector<FlatGroup>>& groups, float side,
+                        std::vector<frame::Patch> Placed::*list) {
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      std::vector<frame::Patch>& patches = things_[i].*list;
+      for (const FlatGroup& group : groups[i]) addPatch(group, axes[i], kThinnest * side, patches);
+      const glm::mat4 object_from_world = glm::inverse(instances[i]->world_from_object);
+      for (frame::Patch& patch : patches) patch = moved(patch, object_from_world);
+    }
+  };
   const auto fill = [&](const std::vector<std::vector<FlatPoint>>& points, int most,
                         std::vector<frame::Patch> Placed::*list) {
     float area = 0.0f;
@@ -136,18 +130,18 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
     }
     if (most <= 0 || !(area > 0.0f)) return;
     for (float side = std::sqrt(area / float(most));; side *= 1.15f) {
+      std::vector<std::vector<FlatGroup>> groups;
       std::size_t count = 0;
-      for (std::size_t i = 0; i < instances.size(); ++i) {
-        const glm::mat4& matrix = instances[i]->world_from_object;
-        std::vector<frame::Patch>& patches = things_[i].*list;
-        patches = patchesOf(points[i], rotationFactor(matrix), side);
-        for (frame::Patch& patch : patches) patch = moved(patch, glm::inverse(matrix));
-        count += patches.size();
-      }
-      if (int(count) <= std::max(most, 6 * things) || side > 1e6f * std::sqrt(area)) return;
+      for (std::size_t i = 0; i < instances.size(); ++i)
+        count += groups.emplace_back(groupedByCells(points[i], axes[i], side)).size();
+      if (int(count) > std::max(most, 6 * things) && side <= 1e6f * std::sqrt(area)) continue;
+      return keep(groups, side, list);
     }
   };
-  fill(points, senders, &Placed::senders);
+  if (senders > 0) {
+    meetSurfaces(scene, posed, points);
+    keep(groupedByLight(points, axes, senders), float(std::sqrt(area / senders)), &Placed::senders);
+  }
   fill(points, blockers, &Placed::blockers);
   if (glowing > 0) fill(shiningPoints(scene, posed, instances), glowing, &Placed::glowing);
   const glm::vec3 middle = 0.5f * (posed.bounds_min + posed.bounds_max);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "math/sampling.h"
 #include "trace/surface.h"
 #include "trace/tracer.h"
 
@@ -12,6 +13,8 @@ namespace gloam {
 namespace {
 
 constexpr int kShiningPoints = 4000;  // of all that shines
+constexpr int kRays = 4;              // from each point
+constexpr float kClear = 1e-5f;       // of the scene's size: how far off a surface its rays begin
 constexpr float kBefore = 0.05f;      // of the square root of the shining area: what lies nearer covers it
 
 bool mayShine(const Scene& scene, const Instance& instance) {
@@ -59,6 +62,27 @@ std::vector<FlatPoint> pointsOf(const Scene& scene, const Instance& instance, do
     }
   }
   return points;
+}
+
+void meetSurfaces(const Scene& scene, const PosedScene& posed, std::vector<std::vector<FlatPoint>>& points) {
+  const trace::Tracer tracer(scene, posed, {.reproducible = true});
+  const float before = kClear * glm::length(posed.bounds_max - posed.bounds_min);
+  std::uint32_t count = 0;
+  for (std::vector<FlatPoint>& own : points) {
+    for (FlatPoint& point : own) {
+      const glm::mat3 world_from_local = sampling::frame(point.normal);
+      int met = 0;
+      for (int k = 0; k < kRays; ++k) {
+        ++count;
+        const glm::vec2 u(std::fmod(0.7548776662466927 * double(count), 1.0),
+                          std::fmod(0.5698402909980532 * double(count), 1.0));
+        const glm::vec3 direction = world_from_local * sampling::cosineHemisphere(u);
+        met +=
+            tracer.occluded({.origin = point.place + before * point.normal, .direction = direction}) ? 1 : 0;
+      }
+      point.meets = float(met) / float(kRays);
+    }
+  }
 }
 
 std::vector<std::vector<FlatPoint>> shiningPoints(const Scene& scene, const PosedScene& posed,

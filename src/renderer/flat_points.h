@@ -23,7 +23,7 @@ struct FlatPoint {
 double areaOf(const Mesh& mesh, const glm::mat4& world_from_object);
 /// Of one mesh where it stands.
 std::vector<FlatPoint> pointsOf(const Scene& scene, const Instance& instance, double area_each);
-/// Sets `meets`: one ray a point says 1 or 0, as the cosine has them.
+/// Sets `meets` by a few rays from each point, spread as the cosine is.
 void meetSurfaces(const Scene& scene, const PosedScene& posed, std::vector<std::vector<FlatPoint>>& points);
 /// For each of these instances the points that shine, once to each side from which they can be seen: not to the inside of what is closed,
 /// not where something lies right before them.
