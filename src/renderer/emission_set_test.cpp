@@ -142,6 +142,27 @@ TEST(EmissionSet, ThinThingsBlockAsOneSide) {
   EXPECT_NEAR(area, 64.0f, 3.0f);
 }
 
+// Thirty slats, one behind another, block as about one.
+TEST(EmissionSet, RowsOfStripsBlockWithinTheirBounds) {
+  SceneBuilder builder("row");
+  const Mesh slat = shapes::box({-0.5f, 0, -0.01f}, {0.5f, 0.1f, 0.01f}, 1.0f);
+  Mesh row = slat;
+  for (int i = 1; i < 30; ++i) shapes::append(row, shapes::moved(slat, {0, 0, 0.1f * float(i)}));
+  builder.place("row", std::move(row), builder.diffuse("grey", glm::vec3(0.5f)));
+  const Scene scene = builder.finish();
+  SceneSpheres spheres;
+  spheres.sets.resize(1);
+  spheres.sets[0].meshes = scene.nodes[0].meshes;
+  spheres.sets[0].nodes = {0};
+  spheres.sets[0].receive_only = "flat";
+  const PosedScene posed = pose(scene, 0.0f);
+  for (const frame::Patch& patch : FlatPatches(scene, spheres, 0, kBlockingPatches, 0).blockers(posed)) {
+    if (std::abs(patch.normal.z) < 0.9f) continue;
+    const float half = std::max(glm::length(patch.half_u), glm::length(patch.half_v));
+    EXPECT_LT(half, 1.6f * 0.5f);
+  }
+}
+
 TEST(EmissionSet, GroundBecomesRectanglesOfItsArea) {
   const Scene scene = ballOverGround();
   const SceneSpheres spheres = spheresOf(scene);

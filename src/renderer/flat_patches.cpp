@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Surface points, spread by area, are grouped by where they lie and which of six ways they face (flat_groups.h): what blocks by cells of
-// one size, what sends where it sends most. Each group becomes the rectangle that bounds its points, scaled to their area.
+// one size, what sends where it sends most. Each group becomes the rectangle that bounds its points, scaled to their area; what
+// blocks, not far beyond these bounds: of many strips, one behind another, only one is seen.
 #include "renderer/flat_patches.h"
 
 #include <algorithm>
@@ -19,9 +20,11 @@ namespace {
 
 constexpr float kThin = 0.2f;       // thickness over width of what blocks as one side
 constexpr float kThinnest = 1e-3f;  // of a cell's side: half of a rectangle's width, at least
+// Beyond the bounds of its points: what is hollow has more area than its outline, a row of strips far more.
+constexpr float kMostGrown = 1.5f;
 
-/// The rectangle that bounds these points, scaled to their area; none where they face all ways.
-void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest,
+/// The rectangle that bounds these points, scaled to their area, by `most_scale` at most; none where they face all ways.
+void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, float most_scale,
               std::vector<frame::Patch>& patches) {
   glm::vec3 normal(0.0f), albedo(0.0f), emission(0.0f);
   float depth = 0.0f;
@@ -37,7 +40,7 @@ void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest,
   patch.normal = glm::normalize(normal);
   patch.center = middle[u] * axes[u] + middle[v] * axes[v] + depth / group.area * axes[w];
   const glm::vec3 along = glm::normalize(axes[u] - glm::dot(axes[u], patch.normal) * patch.normal);
-  const float scale = std::sqrt(group.area / (4.0f * half[u] * half[v]));
+  const float scale = std::min(most_scale, std::sqrt(group.area / (4.0f * half[u] * half[v])));
   patch.half_u = scale * half[u] * along;
   patch.half_v = scale * half[v] * glm::cross(patch.normal, along);
   patch.albedo = albedo / group.area;
@@ -111,11 +114,12 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
   for (const Instance* instance : instances) points.push_back(pointsOf(scene, *instance, area / kFlatPoints));
   std::vector<glm::mat3> axes;
   for (const Instance* instance : instances) axes.push_back(rotationFactor(instance->world_from_object));
-  const auto keep = [&](const std::vector<std::vector<FlatGroup>>& groups, float side,
+  const auto keep = [&](const std::vector<std::vector<FlatGroup>>& groups, float side, float most_scale,
                         std::vector<frame::Patch> Placed::*list) {
     for (std::size_t i = 0; i < instances.size(); ++i) {
       std::vector<frame::Patch>& patches = things_[i].*list;
-      for (const FlatGroup& group : groups[i]) addPatch(group, axes[i], kThinnest * side, patches);
+      for (const FlatGroup& group : groups[i])
+        addPatch(group, axes[i], kThinnest * side, most_scale, patches);
       const glm::mat4 object_from_world = glm::inverse(instances[i]->world_from_object);
       for (frame::Patch& patch : patches) patch = moved(patch, object_from_world);
     }
@@ -135,12 +139,12 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
       for (std::size_t i = 0; i < instances.size(); ++i)
         count += groups.emplace_back(groupedByCells(points[i], axes[i], side)).size();
       if (int(count) > std::max(most, 6 * things) && side <= 1e6f * std::sqrt(area)) continue;
-      return keep(groups, side, list);
+      return keep(groups, side, kMostGrown, list);
     }
   };
   if (senders > 0) {
     meetSurfaces(scene, posed, points);
-    keep(groupedByLight(points, axes, senders), float(std::sqrt(area / senders)), &Placed::senders);
+    keep(groupedByLight(points, axes, senders), float(std::sqrt(area / senders)), INFINITY, &Placed::senders);
   }
   fill(points, blockers, &Placed::blockers);
   if (glowing > 0) fill(shiningPoints(scene, posed, instances), glowing, &Placed::glowing);
