@@ -100,6 +100,8 @@ int runBench(BenchChoice choice, const CLI::App& app, Console& console) {
     throw Error("--spheres", "are a given scene's; --scaling and --figures measure scenes of their own");
   if (!choice.output.empty() && !choice.paper && !choice.scaling)
     throw Error("--output", "is a plot, which --paper and --scaling draw");
+  if (choice.orbit_step_deg != 0.0f && (choice.paper || choice.scaling || !choice.figures.empty()))
+    throw Error("--orbit-step", "is of plain measurements, not of --paper, --scaling or --figures");
   if (suite != nullptr) refuseUnused(*suite, app);
   if (!choice.figures.empty() && (choice.paper || choice.scaling || !app.get_option("SCENE")->empty()))
     throw Error("--figures", "draws scenes of its own, and not beside --paper or --scaling");
