@@ -28,6 +28,11 @@ int directionsFor(const TessellateOptions& options) {
   return std::clamp(int(std::pow(24.0 / double(options.error), 4.0 / 3.0) / 8.0), 512, 8192);
 }
 
+/// Bounced light is smoother, its rays are dearer, and all places have the same ones: what they miss is missed everywhere.
+int bounceDirectionsFor(const TessellateOptions& options) {
+  return std::max(256, directionsFor(options) / 4);
+}
+
 std::array<std::uint32_t, 6> keyOf(const glm::vec3& position, const glm::vec3& normal) {
   const glm::vec3 p = position + 0.0f, n = normal + 0.0f;
   return {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
@@ -47,7 +52,7 @@ std::size_t TessellationError::KeyHash::operator()(const std::array<std::uint32_
 }
 
 TessellationError::TessellationError(const TessellateOptions& options, float spacing)
-    : tables_(makeDirectionTables(options.order, directionsFor(options), directionsFor(options))),
+    : tables_(makeDirectionTables(options.order, directionsFor(options), bounceDirectionsFor(options))),
       spacing_(spacing) {
   double squared = 0.0;
   const sh::Sh cosine = sh::rotateZonal(sh::clampedCosine(options.order), {0, 1, 0});
@@ -112,8 +117,8 @@ std::size_t TessellationError::measure(const Scene& scene, const PosedScene& pos
   const std::size_t vertices = points.size(), count = std::size_t(tables_.coefficients);
   const Samples samples = placeSamples(points, rays / std::size_t(directions() / 2), errors);
   const trace::Tracer tracer(scene, posed, {.reproducible = true, .rigid_only = true}, progress);
-  const BakePasses passes(scene, posed, points, tracer, tables_);
-  BakeState state = makeBakeState(points.size(), tables_, 0);
+  BakePasses passes(scene, posed, points, tracer, tables_, {.bounces = 1, .kept_bytes = 0});
+  BakeState state = makeBakeState(points.size(), tables_, 1);
   std::vector<std::uint32_t> known(points.size(), ~0u);
   for (std::size_t p = 0; p < vertices; ++p) {
     const auto found = known_.find(keyOf(points.positions[p], points.normals[p]));
@@ -122,42 +127,63 @@ std::size_t TessellationError::measure(const Scene& scene, const PosedScene& pos
   std::atomic<bool> stop{false};
   std::atomic<std::size_t> traced{0}, done{0};
   std::mutex telling;
-  tbb::parallel_for(std::size_t(0), state.blocks, [&](std::size_t block) {
-    const auto begin = known.begin() + std::ptrdiff_t(state.blockBegin(block)),
-               end = known.begin() + std::ptrdiff_t(state.blockEnd(block));
-    ++done;
-    if (stop || std::find(begin, end, ~0u) == end) return;
-    traced += passes.shadowBlock(block, state);
-    const std::unique_lock lock(telling, std::try_to_lock);
-    if (!lock || done % 64 != 1) return;
-    if (progress.stopRequested()) stop = true;
-    progress.report(double(glm::mix(fractions.x, fractions.y, float(done) / float(state.blocks))),
-                    fmt::format("splitting triangles: {} vertices", vertices));
-  });
-  if (stop) throw Interrupted("interrupted while splitting triangles");
+  // All blocks with a point that is not known.
+  const auto run = [&](const auto& work) {
+    tbb::parallel_for(std::size_t(0), state.blocks, [&](std::size_t block) {
+      const auto begin = known.begin() + std::ptrdiff_t(state.blockBegin(block)),
+                 end = known.begin() + std::ptrdiff_t(state.blockEnd(block));
+      ++done;
+      if (stop || std::find(begin, end, ~0u) == end) return;
+      traced += work(block);
+      const std::unique_lock lock(telling, std::try_to_lock);
+      if (!lock || done % 64 != 1) return;
+      if (progress.stopRequested()) stop = true;
+      progress.report(double(glm::mix(fractions.x, fractions.y, float(done) / float(2 * state.blocks))),
+                      fmt::format("splitting triangles: {} vertices", vertices));
+    });
+    if (stop) throw Interrupted("interrupted while splitting triangles");
+  };
+  const std::size_t numbers = count + state.row;  // of a vertex that is known
+  run([&](std::size_t block) { return passes.shadowBlock(block, state); });
   for (std::size_t p = 0; p < vertices; ++p) {
-    if (known[p] != ~0u) {
-      std::copy_n(&rows_[known[p] * count], count, &state.direct[p * count]);
-      state.sites[p].place = Place::kOpen;
-    } else if (state.sites[p].place == Place::kOpen) {
-      known_.emplace(keyOf(points.positions[p], points.normals[p]), std::uint32_t(rows_.size() / count));
-      rows_.insert(rows_.end(), &state.direct[p * count], &state.direct[p * count] + count);
-    }
+    if (known[p] == ~0u) continue;
+    std::copy_n(&rows_[known[p] * numbers], count, &state.direct[p * count]);
+    state.sites[p].place = Place::kOpen;
   }
   passes.fillHidden(state, {state.direct, count});
+  state.finishPass();
+  run([&](std::size_t block) { return passes.bounceBlock(block, state); });
+  for (std::size_t p = 0; p < vertices; ++p) {
+    float* bounced = &state.next[p * state.row];
+    if (known[p] != ~0u) {
+      std::copy_n(&rows_[known[p] * numbers + count], state.row, bounced);
+    } else if (state.sites[p].place == Place::kOpen) {
+      known_.emplace(keyOf(points.positions[p], points.normals[p]), std::uint32_t(rows_.size() / numbers));
+      rows_.insert(rows_.end(), &state.direct[p * count], &state.direct[p * count] + count);
+      rows_.insert(rows_.end(), bounced, bounced + state.row);
+    }
+  }
+  passes.fillHidden(state, {state.next, state.row});
   for (const Samples::Use& use : samples.uses) {
     float& error = errors[use.instance][use.triangle];
     error = std::max(error, 0.0f);
     if (state.sites[use.point].place != Place::kOpen) continue;
     const glm::uvec3& at = points.triangles[points.first_triangle[use.instance] + use.triangle];
     const float weights[3] = {1.0f - use.share.x - use.share.y, use.share.x, use.share.y};
-    double squared = 0.0;
+    const auto offAt = [&](const std::vector<float>& numbers_of, std::size_t stride, std::size_t c) {
+      double off = double(numbers_of[use.point * stride + c]);
+      for (int k = 0; k < 3; ++k) off -= double(weights[k] * numbers_of[at[k] * stride + c]);
+      return off;
+    };
+    double squared[3] = {};
     for (std::size_t c = 0; c < count; ++c) {
-      double off = double(state.direct[use.point * count + c]);
-      for (int k = 0; k < 3; ++k) off -= double(weights[k] * state.direct[at[k] * count + c]);
-      squared += off * off;
+      const double direct = offAt(state.direct, count, c);
+      for (std::size_t color = 0; color < 3; ++color) {
+        const double off = direct + offAt(state.next, state.row, color * (state.row / 3) + c);
+        squared[color] += off * off;
+      }
     }
-    error = std::max(error, float(std::sqrt(squared)) / unshadowed_);
+    error = std::max(error, float(std::sqrt(std::max({squared[0], squared[1], squared[2]}))) / unshadowed_);
   }
   return traced;
 }

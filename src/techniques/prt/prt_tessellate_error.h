@@ -20,8 +20,8 @@ class TessellationError {
   /// `spacing`: metres between the places at which triangles are measured that are larger.
   TessellationError(const TessellateOptions& options, float spacing);
 
-  /// [instance][triangle]: in place of kUnknown the greatest |DS there - DS between the corners| / |DU| over the triangle, places
-  /// that nobody sees left out; other values stay. Triangles for which `rays` do not suffice stay unknown. Returns the number
+  /// [instance][triangle]: in place of kUnknown the greatest |T there - T between the corners| / |DU| over the triangle, places
+  /// that nobody sees left out; T is DS with the light of one bounce, the greatest of three colours counts. Other values stay. Triangles for which `rays` do not suffice stay unknown. Returns the number
   /// of rays that it took. Told as work that begins and ends at these fractions.
   std::size_t measure(const Scene& scene, const PosedScene& posed, const Progress& progress,
                       glm::vec2 fractions, std::size_t rays, std::vector<std::vector<float>>& errors) const;
