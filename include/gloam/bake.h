@@ -146,7 +146,7 @@ struct TessellateReport {
   std::size_t rays = 0;
   bool out_of_rays = false;  ///< `max_rays` ended it
 };
-/// Splits triangles of rigid meshes where vertices are too sparse to hold the shadow that falls on them (PRT-3): at the
+/// Splits triangles of rigid meshes where vertices are too sparse to hold shadow and once bounced light (PRT-3): at the
 /// middle of the longest edge, which all triangles around it share, also those of other meshes and beyond seams of
 /// texture coordinates, so that no crack opens. The shape stays what it was; all of a vertex is interpolated. Instances are
 /// made unique first. Same mesh for any number of threads. Throws as bakeTransfer does.
