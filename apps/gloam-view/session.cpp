@@ -262,7 +262,7 @@ std::vector<bool> Session::chosenInstances() const {
 /// For what is clicked, outlined or inspected.
 bool Session::wantsLayers() const {
   const std::vector<bool> chosen = chosenInstances();
-  return inspects_ || click_ || !pending_exr_.empty() || std::ranges::find(chosen, true) != chosen.end();
+  return inspects_ || click_ || pending_picture_.ends_with(".exr") || std::ranges::find(chosen, true) != chosen.end();
 }
 
 void Session::loseDevice() {

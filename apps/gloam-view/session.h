@@ -78,6 +78,8 @@ class Session {
   void set(const std::string& name, const std::string& value);
   /// An .exr holds all layers: where the picture has them not yet, the next one that stands is saved.
   void saveScreenshot(const std::string& path);
+  /// The same once the picture is whole; at once while it plays.
+  void saveWhole(const std::string& path);
   void startVideo(const std::string& path);
   void stopVideo();
   /// Something that a picture depends on has changed.
@@ -199,7 +201,7 @@ class Session {
   float grown_from_ = 0.0f;  ///< share of the window that the last one grew from
   int selected_node_ = kNone;
   bool inspects_ = false;
-  std::string pending_exr_;         ///< to be saved with all layers
+  std::string pending_picture_;     ///< to be saved whole, an .exr with all layers
   std::set<std::string> measured_;  ///< kinds of pictures that were drawn of this scene
   std::optional<glm::vec2> click_;
   std::deque<Message> messages_;

@@ -91,26 +91,33 @@ void Session::savePreset(const std::string& path) {
   }
 }
 
+void Session::saveWhole(const std::string& path) {
+  if (playing || stands() || !drawn_) return saveScreenshot(path);
+  pending_picture_ = path;
+  say(fmt::format("{}: saved as soon as the picture is whole", path));
+}
+
 void Session::saveScreenshot(const std::string& path) {
   try {
     if (!drawn_) throw Error(path, "nothing is drawn yet");
     if (path.ends_with(".exr") && drawn_->left.layers->find("normal") == nullptr) {
-      pending_exr_ = path;
+      pending_picture_ = path;
       return changed();
     }
     const LayeredImage* right = drawn_->split                                    ? drawn_->right.layers.get()
                                 : reference_ && state.split == Split::kReference ? reference_->layers.get()
                                                                                  : nullptr;
     savePicture(path, *drawn_, right, divider);
-    say(fmt::format("saved {}", path));
+    say(fmt::format("saved {}, {} x {}", path, drawn_->width, drawn_->height));
   } catch (const std::exception& error) {
     say(error.what(), true);
   }
 }
 
 void Session::savePending() {
-  if (pending_exr_.empty() || !drawn_ || drawn_->left.layers->find("normal") == nullptr || !stands()) return;
-  saveScreenshot(std::exchange(pending_exr_, {}));
+  if (pending_picture_.empty() || !drawn_ || !stands()) return;
+  if (pending_picture_.ends_with(".exr") && drawn_->left.layers->find("normal") == nullptr) return changed();
+  saveScreenshot(std::exchange(pending_picture_, {}));
 }
 
 void Session::startVideo(const std::string& path) {

@@ -223,7 +223,7 @@ void Session::followShaders() {
 }
 
 bool Session::idle() const {
-  return stands() && pending_exr_.empty();
+  return stands() && pending_picture_.empty();
 }
 
 bool Session::stands() const {

@@ -125,7 +125,7 @@ void timeKeys(Session& session, const UiState& ui) {
 
 /// Keys overwrite nothing.
 void fileKeys(Session& session, UiState& ui) {
-  if (among(ui.pressed, GLFW_KEY_F2)) session.saveScreenshot(freeName(ui.screenshot));
+  if (among(ui.pressed, GLFW_KEY_F2)) session.saveWhole(freeName(ui.screenshot));
   if (among(ui.pressed, GLFW_KEY_F3))
     session.recording() ? session.stopVideo() : session.startVideo(freeName(ui.video));
   if (among(ui.pressed, GLFW_KEY_F5)) session.savePreset(ui.last_preset = freeName(ui.preset));

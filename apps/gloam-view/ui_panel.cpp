@@ -19,6 +19,27 @@ bool section(const char* name, bool open) {
   return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
+/// "Light: from afar direct and bounced; of lamps direct".
+std::string lightText(const Coverage& covers) {
+  std::string text;
+  const auto add = [&](const char* source, bool direct, bool bounced) {
+    if (!direct && !bounced) return;
+    text += fmt::format("{}{} {}", text.empty() ? "Light: " : "; ", source,
+                        direct && bounced ? "direct and bounced" : (direct ? "direct" : "bounced"));
+  };
+  add("from afar", covers.environment_direct, covers.environment_indirect);
+  add("of lamps", covers.local_direct, covers.local_indirect);
+  add("of what glows", covers.emitter_direct, covers.emitter_indirect);
+  return text;
+}
+
+/// Other things than lamps.
+bool movesThings(const ViewState& state) {
+  const std::vector<int>& lamps = state.scene->light_nodes;
+  return std::ranges::any_of(
+      state.moves, [&](const auto& move) { return std::ranges::find(lamps, move.first) == lamps.end(); });
+}
+
 std::string shortName(const std::string& name) {
   return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
 }
@@ -96,6 +117,9 @@ void techniqueSection(Session& session, UiState& ui) {
   const bool lamps_only = !covers.environment_direct && !covers.environment_indirect;
   if (lamps_only && session.state.scene && session.state.scene->light_nodes.empty())
     dim("It computes the light of lamps, and this scene has none.");
+  dim(lightText(covers));
+  if (wanted.needs_bake && session.state.scene && movesThings(session.state))
+    dim("Its bake is of things where the file has them: what was moved keeps that shadow and light.");
   ImGui::Spacing();
   optionControls(session, ui, kLeft);
 }

@@ -178,7 +178,7 @@ void saveSection(Session& session, UiState& ui) {
     return pressed;
   };
   dim("picture, .png or .exr (F2)");
-  if (line("##picture", ui.screenshot, "Save")) session.saveScreenshot(ui.screenshot);
+  if (line("##picture", ui.screenshot, "Save")) session.saveWhole(ui.screenshot);
   dim("video, .mp4 (F3)");
   if (line("##video", ui.video, session.recording() ? "Stop" : "Record")) {
     session.recording() ? session.stopVideo() : session.startVideo(ui.video);

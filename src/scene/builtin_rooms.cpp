@@ -20,15 +20,19 @@ struct Overlap {
   bool u_start = false, u_end = false, v_start = false, v_end = false;
 };
 
+/// Walls end so far within one another: what both reach to would flicker, seen from outside.
+constexpr float kHair = 0.003f;
+
 /// A wall: its inner face spans edge_u and edge_v (which runs down) from `origin`; `thickness` behind it stands the rest of a
 /// closed slab, coarse, since nobody sees it. UVs are metres.
 Mesh wall(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& edge_v, float thickness,
           float cell, const Overlap& over) {
   const glm::vec3 u = glm::normalize(edge_u), v = glm::normalize(edge_v);
-  const std::vector<float> us = shapes::spaced(glm::length(edge_u), cell, over.u_start ? thickness : 0.0f,
-                                               over.u_end ? thickness : 0.0f);
-  const std::vector<float> vs = shapes::spaced(glm::length(edge_v), cell, over.v_start ? thickness : 0.0f,
-                                               over.v_end ? thickness : 0.0f);
+  const float overlap = thickness - kHair;
+  const std::vector<float> us =
+      shapes::spaced(glm::length(edge_u), cell, over.u_start ? overlap : 0.0f, over.u_end ? overlap : 0.0f);
+  const std::vector<float> vs =
+      shapes::spaced(glm::length(edge_v), cell, over.v_start ? overlap : 0.0f, over.v_end ? overlap : 0.0f);
   Mesh mesh = shapes::patch(origin, u, v, us, vs);
   const std::vector<float> whole = {0.0f, 1.0f};
   const glm::vec3 corner = origin + us.front() * u + vs.front() * v, back = glm::cross(u, v) * thickness;
@@ -43,11 +47,12 @@ Mesh wall(const glm::vec3& origin, const glm::vec3& edge_u, const glm::vec3& edg
 
 /// A ceiling of 2 by 2 metres at that height, a square hole of half side `hole` in its middle, open to the front.
 Mesh ceilingWithHole(float height, float hole, float thickness, float cell) {
+  const float overlap = thickness - kHair;
   const auto lines = [&](bool overlap_end) {
-    std::vector<float> all = shapes::spaced(1.0f - hole, cell, thickness, 0.0f);
+    std::vector<float> all = shapes::spaced(1.0f - hole, cell, overlap, 0.0f);
     const int n = std::max(2, int(std::ceil(2.0f * hole / cell)));
     for (int i = 1; i <= n; ++i) all.push_back(1.0f - hole + 2.0f * hole * float(i) / float(n));
-    for (const float x : shapes::spaced(1.0f - hole, cell, 0.0f, overlap_end ? thickness : 0.0f)) {
+    for (const float x : shapes::spaced(1.0f - hole, cell, 0.0f, overlap_end ? overlap : 0.0f)) {
       if (x > 0.0f) all.push_back(1.0f + hole + x);
     }
     return all;
@@ -78,7 +83,7 @@ Mesh ceilingWithHole(float height, float hole, float thickness, float cell) {
   shapes::append(mesh, shapes::patch(top + glm::vec3(hole, 0, -hole), {0, 0, side}, down, along, up));
   shapes::append(mesh, shapes::patch(top + glm::vec3(hole, 0, hole), {-side, 0, 0}, down, along, up));
   const std::vector<float> whole = {0.0f, 1.0f};
-  const float outer = 1.0f + thickness;
+  const float outer = 1.0f + overlap;
   shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, -outer), {2 * outer, 0, 0},
                                      {0, 0, outer - hole}, whole, whole));
   shapes::append(mesh, shapes::patch(top + glm::vec3(-outer, 0, hole), {2 * outer, 0, 0}, {0, 0, 1 - hole},
