@@ -44,26 +44,39 @@ struct Axis {
   }
 };
 
-gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
-                              const Light& light) {
-  const gpu::ImageRef values = light.values;
-  const auto likeValues = [&](const char* name) { return createValues(graph, plan, name, values.format()); };
-  const gpu::ImageRef filtered = plan.views ? likeValues("radiance_filter.filtered") : values;
-  const gpu::ImageRef halfway = likeValues("radiance_filter.halfway");
-  for (int axis = 0; axis < 2; ++axis) {
-    const Axis way{axis, plan.taps[axis], runOf(graph.device(), plan.taps[axis]), plan};
+/// Bits of taps along both axes.
+struct Masks {
+  gpu::BufferRef across, down;
+  gpu::BufferRef of(int axis) const { return axis == 0 ? across : down; }
+};
+
+Axis axisOf(const gpu::Device& device, const Plan& plan, int axis) {
+  return {axis, plan.taps[axis], runOf(device, plan.taps[axis]), plan};
+}
+
+Masks recordMasks(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan) {
+  const auto of = [&](int axis) {
     const auto masks = graph.create(fmt::format("radiance_filter.masks_{}", axis == 0 ? "across" : "down"),
                                     gpu::BufferDesc{.bytes = plan.pixels() * sizeof(std::uint32_t)});
     auto& weights = graph.compute("radiance_filter.weights", radiance_filter_weights_spv);
-    way.over(readSurface(weights, inputs, plan).write("masks", masks).push(limitsOf(plan, axis)), 1);
+    axisOf(graph.device(), plan, axis)
+        .over(readSurface(weights, inputs, plan).write("masks", masks).push(limitsOf(plan, axis)), 1);
+    return masks;
+  };
+  return {of(0), of(1)};
+}
+
+void recordTwoPasses(gpu::FrameGraph& graph, const Plan& plan, const Masks& masks, gpu::ImageRef values,
+                     gpu::ImageRef filtered) {
+  const gpu::ImageRef halfway = createValues(graph, plan, "radiance_filter.halfway", values.format());
+  for (int axis = 0; axis < 2; ++axis) {
     auto& filter = graph.compute("radiance_filter.filter", radiance_filter_filter_spv);
-    filter.read("masks", masks)
+    filter.read("masks", masks.of(axis))
         .read("before", axis == 0 ? values : halfway)
         .write("after", axis == 0 ? halfway : filtered)
         .push(axis);
-    way.over(filter, values.range().layers);
+    axisOf(graph.device(), plan, axis).over(filter, values.range().layers);
   }
-  return filtered;
 }
 
 }  // namespace
@@ -71,16 +84,34 @@ gpu::ImageRef recordTwoPasses(gpu::FrameGraph& graph, const frame::FrameInputs& 
 gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            const Light& light) {
   if (plan.filter == Filter::kNone || plan.taps == glm::ivec2(1)) return light.values;
-  if (plan.filter == Filter::kTwoPass) return recordTwoPasses(graph, inputs, plan, light);
   const gpu::ImageRef filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
-  readSurface(graph.compute("radiance_filter.once", radiance_filter_once_spv), inputs, plan)
-      .read("before", light.values)
-      .write("after", filtered)
+  const Masks masks = recordMasks(graph, inputs, plan);
+  const bool one_pass = plan.filter == Filter::kOnePass;
+  if (!one_pass) recordTwoPasses(graph, plan, masks, light.values, filtered);
+  const auto shifts =
+      graph.create("radiance_filter.shifts", gpu::BufferDesc{.bytes = plan.pixels() * sizeof(glm::vec2)});
+  auto& once = readSurface(graph.compute("radiance_filter.once", radiance_filter_once_spv), inputs, plan)
+                   .read("before", light.values)
+                   .read("masks_across", masks.across)
+                   .read("masks_down", masks.down)
+                   .write("shifts", shifts);
+  (one_pass ? once.write("after", filtered) : once.readWrite("after", filtered))
       .specialize("layers", plan.layers())
+      .specialize("parts", int(plan.parts.size()))
       .specialize("taps_x", plan.taps.x)
       .specialize("taps_y", plan.taps.y)
+      .specialize("every_pixel", one_pass)
       .push(limitsOf(plan))
-      .dispatchOver(plan.width, plan.height, int(plan.parts.size()));
+      .dispatchOver(plan.width, plan.height, 1);
+  if (plan.slopes)
+    readSurface(graph.compute("radiance_filter.slopes", radiance_filter_slopes_spv), inputs, plan)
+        .read("shifts", shifts)
+        .readWrite("means", filtered)
+        .specialize("taps", std::max(plan.taps.x, plan.taps.y))
+        .specialize("layers", plan.layers())
+        .specialize("parts", int(plan.parts.size()))
+        .push(limitsOf(plan))
+        .dispatchOver(plan.width, plan.height, 1);
   return filtered;
 }
 

@@ -110,8 +110,9 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
                           .exposure = access.map<float>(exposure)[0],
                           .irradiance = access.map<std::uint16_t>(parts[i].irradiance),
                           .gloss = access.map<std::uint16_t>(parts[i].gloss)});
-    filterOnHost(surfaces, plan.taps, int(layers), access.map<std::uint16_t>(values),
-                 access.map<std::uint16_t>(halfway), all, [&](int row) {
+    const HostFilter filter{plan.taps, int(plan.parts.size()), plan.layers(), plan.slopes};
+    filterOnHost(surfaces, filter, access.map<std::uint16_t>(values), access.map<std::uint16_t>(halfway), all,
+                 [&](int row) {
                    for (const HostShading& shading : shadings) shadeRow(surfaces, shading, row);
                  });
   });

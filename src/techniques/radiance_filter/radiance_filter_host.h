@@ -20,16 +20,34 @@ struct HostSurfaces {
   std::vector<float> x, y, z, normal_x, normal_y, normal_z;  ///< metres; geometric normals
   std::vector<float> tolerance;                              ///< metres off the tangent plane
   std::vector<std::uint32_t> objects;                        ///< 0: none
+  // What the filter finds, without margins:
+  std::vector<std::uint32_t> masks[2];  ///< across, down: taps that are taken
+  std::vector<glm::vec2> shifts;  ///< of the middle of what is taken, pixels; kNoShift: sets are missing
 
   HostSurfaces(int picture_width, int picture_height);
   std::size_t at(int px, int py) const;
+  std::size_t pixel(int px, int py) const;  ///< of what has no margins
 };
 
-/// RF-4, across and then down, on all cores. `values`: halves, four a pixel, rows of a layer and layers one after another, as
+/// How RF-4 goes over the picture.
+struct HostFilter {
+  glm::ivec2 taps{1};
+  int parts = 1, layers = 1;  ///< layers of a part
+  bool slopes = true;
+};
+/// Across and then down, on all cores, edges mended. `values`: halves, four a pixel, rows of a layer and layers one after another, as
 /// `halfway` and `filtered` are. `done` is called for each row, from any core, when it is whole.
-void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers,
-                  std::span<const std::uint16_t> values, std::span<std::uint16_t> halfway,
-                  std::span<std::uint16_t> filtered, const std::function<void(int)>& done);
+void filterOnHost(HostSurfaces& surfaces, const HostFilter& filter, std::span<const std::uint16_t> values,
+                  std::span<std::uint16_t> halfway, std::span<std::uint16_t> filtered,
+                  const std::function<void(int)>& done);
+/// Twin of radiance_filter_once: pixels of a row whose windows are not whole, in one pass where that takes others than the two; and
+/// shifts of all pixels of the row.
+void mendEdges(HostSurfaces& surfaces, const HostFilter& filter, int row,
+               std::span<const std::uint16_t> values, std::span<const std::uint16_t> halfway,
+               std::span<std::uint16_t> filtered);
+/// Twin of radiance_filter_slopes: a row, where it stands.
+void followSlopes(const HostSurfaces& surfaces, const HostFilter& filter, int row,
+                  std::span<std::uint16_t> filtered);
 
 /// What RF-5 makes of one part of the light, all images whole, halves four a pixel.
 struct HostShading {

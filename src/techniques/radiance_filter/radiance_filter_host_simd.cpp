@@ -16,33 +16,7 @@
 #include <bit>
 
 #include "techniques/radiance_filter/radiance_filter_host.h"
-#include "techniques/radiance_filter/radiance_filter_shared.h"
-
-#ifndef GLOAM_RADIANCE_FILTER_LINE
-#define GLOAM_RADIANCE_FILTER_LINE
-namespace gloam::radiance_filter {
-
-/// A window along one axis, as radiance_filter_line.glsl has it.
-struct Line {
-  int taps;
-  bool replaces() const { return taps <= kMostTapsReplaced; }
-  int before() const { return taps / 2; }
-  int reachBefore() const { return replaces() ? taps : before(); }
-  int reach() const { return replaces() ? 2 * taps : taps; }
-  /// All taps, none replaced.
-  std::uint32_t whole() const {
-    const std::uint32_t window = taps == 32 ? 0xffffffffu : (1u << taps) - 1u;
-    return replaces() ? window << (taps - before()) : window;
-  }
-  std::uint32_t chosen(std::uint32_t same) const {
-    if (!replaces()) return same & whole();
-    const std::uint32_t early = (1u << taps) - 1u, missing = ~same & whole();
-    return same & (whole() | (missing & early) << taps | (missing & ~early) >> taps);
-  }
-};
-
-}  // namespace gloam::radiance_filter
-#endif
+#include "techniques/radiance_filter/radiance_filter_line.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gloam::radiance_filter {
@@ -109,35 +83,94 @@ void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* 
   }
 }
 
-/// Means over the taps of a row of pixels; halves `step` apart.
-void filterRow(const std::uint16_t* from, std::ptrdiff_t step, int taps, const std::uint32_t* chosen,
-               int width, std::uint16_t* to) {
-  const hn::CappedTag<float, 16> d;
+/// Mean over the taps of one pixel; halves `step` apart.
+void filterPixel(const std::uint16_t* first, std::ptrdiff_t step, std::uint32_t chosen, float share,
+                 std::uint16_t* to) {
   const hn::CappedTag<float, 4> d4;
-  const hn::Rebind<hwy::float16_t, decltype(d)> dh;
   const hn::Rebind<hwy::float16_t, decltype(d4)> dh4;
+  auto sum = hn::Zero(d4);
+  for (; chosen != 0; chosen &= chosen - 1)
+    sum = hn::Add(sum, hn::PromoteTo(d4, hn::LoadU(dh4, reinterpret_cast<const hwy::float16_t*>(
+                                                            first + std::countr_zero(chosen) * step))));
+  hn::StoreU(hn::DemoteTo(dh4, hn::Mul(sum, hn::Set(d4, share))), dh4, reinterpret_cast<hwy::float16_t*>(to));
+}
+
+/// Sums over runs of `taps` pixels from each on, of a row of halves: twos, fours and so on where that is all, else one by one.
+void sumRuns(const std::uint16_t* from, int taps, int width, float* sums) {
+  const hn::CappedTag<float, 16> d;
+  const hn::Rebind<hwy::float16_t, decltype(d)> dh;
+  const int lanes = int(hn::Lanes(d)), count = 4 * width;
+  const auto* halves = reinterpret_cast<const hwy::float16_t*>(from);
+  const bool doubles = std::has_single_bit(unsigned(taps));
+  const int steps = doubles ? 1 : taps;
+  for (int i = 0; i + 4 * steps <= count; i += lanes) {
+    // The last vector ends with the row, and does some again.
+    const int at = std::max(0, std::min(i, count - 4 * (steps - 1) - lanes));
+    auto sum = hn::PromoteTo(d, hn::LoadU(dh, halves + at));
+    for (int k = 1; k < steps; ++k) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(dh, halves + at + 4 * k)));
+    hn::StoreU(sum, d, sums + at);
+  }
+  for (int run = 1; doubles && run < taps; run *= 2)
+    for (int i = 0; i < count; i += lanes)
+      hn::StoreU(hn::Add(hn::LoadU(d, sums + i), hn::LoadU(d, sums + i + 4 * run)), d, sums + i);
+}
+
+/// RF-4 across: a row of a layer. `sums` has room for a vector and a window more than the row.
+void filterAcross(const std::uint16_t* from, int taps, const std::uint32_t* chosen, int width, float* sums,
+                  std::uint16_t* to) {
+  const hn::CappedTag<float, 16> d;
+  const hn::Rebind<hwy::float16_t, decltype(d)> dh;
   const Line line{taps};
   const auto pixels = int(hn::Lanes(d)) / 4;
   const std::uint32_t whole = line.whole();
-  const auto isWhole = [whole](std::uint32_t bits) { return bits == whole; };
   const float share = 1.0f / float(taps);
-  const auto* halves = reinterpret_cast<const hwy::float16_t*>(from);
-  auto* means = reinterpret_cast<hwy::float16_t*>(to);
+  const auto isWhole = [whole](std::uint32_t bits) { return bits == whole; };
+  if (width >= pixels) sumRuns(from, taps, width, sums);
   for (int x = 0; x < width;) {
-    const hwy::float16_t* here = halves + 4 * x - line.reachBefore() * step;
     if (x + pixels <= width && std::all_of(chosen + x, chosen + x + pixels, isWhole)) {
-      auto sum = hn::Zero(d);
-      const int first = std::countr_zero(whole);
-      for (int j = first; j < first + taps; ++j)
-        sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(dh, here + j * step)));
-      hn::StoreU(hn::DemoteTo(dh, hn::Mul(sum, hn::Set(d, share))), dh, means + 4 * x);
+      const auto sum = hn::LoadU(d, sums + 4 * (x - line.before()));
+      hn::StoreU(hn::DemoteTo(dh, hn::Mul(sum, hn::Set(d, share))), dh,
+                 reinterpret_cast<hwy::float16_t*>(to) + 4 * x);
       x += pixels;
       continue;
     }
-    auto sum = hn::Zero(d4);
-    for (std::uint32_t left = chosen[x]; left != 0; left &= left - 1)
-      sum = hn::Add(sum, hn::PromoteTo(d4, hn::LoadU(dh4, here + std::countr_zero(left) * step)));
-    hn::StoreU(hn::DemoteTo(dh4, hn::Mul(sum, hn::Set(d4, share))), dh4, means + 4 * x);
+    filterPixel(from + 4 * (x - line.reachBefore()), 4, chosen[x], share, to + 4 * x);
+    ++x;
+  }
+}
+
+/// RF-4 down: `rows` rows of a layer, one of which is at `from`, halves `step` apart. Windows that lack taps are left as they are.
+void filterDown(const std::uint16_t* from, std::ptrdiff_t step, int taps, const std::uint32_t* chosen,
+                int rows, int width, std::uint16_t* to) {
+  const hn::CappedTag<float, 16> d;
+  const hn::Rebind<hwy::float16_t, decltype(d)> dh;
+  const Line line{taps};
+  const auto pixels = int(hn::Lanes(d)) / 4;
+  const std::uint32_t whole = line.whole();
+  const float share = 1.0f / float(taps);
+  const auto* halves = reinterpret_cast<const hwy::float16_t*>(from);
+  const auto load = [&](const hwy::float16_t* at) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(dh, at)); };
+  for (int x = 0; x < width;) {
+    bool all = x + pixels <= width;
+    for (int r = 0; r < rows && all; ++r)
+      all = std::all_of(chosen + r * width + x, chosen + r * width + x + pixels,
+                        [whole](std::uint32_t bits) { return bits == whole; });
+    if (all) {
+      const hwy::float16_t* first = halves + 4 * x - line.before() * step;
+      auto sum = load(first);
+      for (int j = 1; j < taps; ++j) sum = hn::Add(sum, load(first + j * step));
+      for (int r = 0; r < rows; ++r) {
+        hn::StoreU(hn::DemoteTo(dh, hn::Mul(sum, hn::Set(d, share))), dh,
+                   reinterpret_cast<hwy::float16_t*>(to) + r * step + 4 * x);
+        if (r + 1 == rows) break;
+        sum = hn::Add(sum, hn::Sub(load(first + (taps + r) * step), load(first + r * step)));
+      }
+      x += pixels;
+      continue;
+    }
+    for (int r = 0; r < rows; ++r)
+      if (const std::uint32_t bits = chosen[r * width + x]; bits == whole || bits == 0)
+        filterPixel(from + 4 * x + (r - line.reachBefore()) * step, step, bits, share, to + r * step + 4 * x);
     ++x;
   }
 }
@@ -150,7 +183,8 @@ HWY_AFTER_NAMESPACE();
 namespace gloam::radiance_filter {
 
 HWY_EXPORT(chooseRow);
-HWY_EXPORT(filterRow);
+HWY_EXPORT(filterAcross);
+HWY_EXPORT(filterDown);
 
 HostSurfaces::HostSurfaces(int picture_width, int picture_height)
     : width(picture_width), height(picture_height) {
@@ -158,30 +192,54 @@ HostSurfaces::HostSurfaces(int picture_width, int picture_height)
   for (std::vector<float>* plane : {&x, &y, &z, &normal_x, &normal_y, &normal_z, &tolerance})
     plane->resize(count);
   objects.resize(count);
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
+  for (std::vector<std::uint32_t>& of_axis : masks) of_axis.resize(pixels);
+  shifts.resize(pixels);
+}
+
+std::size_t HostSurfaces::pixel(int px, int py) const {
+  return std::size_t(py) * std::size_t(width) + std::size_t(px);
 }
 
 std::size_t HostSurfaces::at(int px, int py) const {
   return std::size_t(py) * std::size_t(width + 2 * kMostTaps) + std::size_t(px + kMostTaps);
 }
 
-void filterOnHost(const HostSurfaces& surfaces, glm::ivec2 taps, int layers,
-                  std::span<const std::uint16_t> values, std::span<std::uint16_t> halfway,
-                  std::span<std::uint16_t> filtered, const std::function<void(int)>& done) {
-  const auto row = std::size_t(4 * surfaces.width), layer = row * std::size_t(surfaces.height);
-  for (int axis = 0; axis < 2; ++axis) {
-    const std::uint16_t* from = axis == 0 ? values.data() : halfway.data();
-    std::uint16_t* to = axis == 0 ? halfway.data() : filtered.data();
-    tbb::parallel_for(0, surfaces.height, [&](int y) {
-      std::vector<std::uint32_t> chosen(std::size_t(surfaces.width));
-      HWY_DYNAMIC_DISPATCH(chooseRow)(surfaces, y, axis, taps[axis], chosen.data());
-      for (int l = 0; l < layers; ++l) {
-        const std::size_t at = std::size_t(l) * layer + std::size_t(y) * row;
-        HWY_DYNAMIC_DISPATCH(filterRow)
-        (from + at, axis == 0 ? 4 : std::ptrdiff_t(row), taps[axis], chosen.data(), surfaces.width, to + at);
-      }
-      if (axis == 1) done(y);
-    });
-  }
+void filterOnHost(HostSurfaces& surfaces, const HostFilter& filter, std::span<const std::uint16_t> values,
+                  std::span<std::uint16_t> halfway, std::span<std::uint16_t> filtered,
+                  const std::function<void(int)>& done) {
+  constexpr int kRows = 4;  // that share the sums of a window
+  const int width = surfaces.width, height = surfaces.height, layers = filter.parts * filter.layers;
+  const auto row = std::size_t(4 * width), layer = row * std::size_t(height);
+  const auto choose = [&](int y, int axis) {
+    std::uint32_t* masks = &surfaces.masks[axis][surfaces.pixel(0, y)];
+    HWY_DYNAMIC_DISPATCH(chooseRow)(surfaces, y, axis, filter.taps[axis], masks);
+    return masks;
+  };
+  tbb::parallel_for(0, height, [&](int y) {
+    const std::uint32_t* masks = choose(y, 0);
+    std::vector<float> sums(row + 4 * (kMostTaps + 4));
+    for (int l = 0; l < layers; ++l) {
+      const std::size_t at = std::size_t(l) * layer + std::size_t(y) * row;
+      HWY_DYNAMIC_DISPATCH(filterAcross)
+      (&values[at], filter.taps.x, masks, width, sums.data(), &halfway[at]);
+    }
+  });
+  tbb::parallel_for(0, (height + kRows - 1) / kRows, [&](int block) {
+    const int first = kRows * block, rows = std::min(kRows, height - first);
+    for (int r = 0; r < rows; ++r) choose(first + r, 1);
+    for (int l = 0; l < layers; ++l) {
+      const std::size_t at = std::size_t(l) * layer + std::size_t(first) * row;
+      HWY_DYNAMIC_DISPATCH(filterDown)
+      (&halfway[at], std::ptrdiff_t(row), filter.taps.y, &surfaces.masks[1][surfaces.pixel(0, first)], rows,
+       width, &filtered[at]);
+    }
+    for (int r = 0; r < rows; ++r) mendEdges(surfaces, filter, first + r, values, halfway, filtered);
+  });
+  tbb::parallel_for(0, height, [&](int y) {
+    if (filter.slopes) followSlopes(surfaces, filter, y, filtered);
+    done(y);
+  });
 }
 
 }  // namespace gloam::radiance_filter

@@ -16,11 +16,15 @@ int reach(int taps) { return replacesTaps(taps) ? 2 * taps : taps; }
 /// Where the pixel stands that may take the place of tap number `tap` of the reach.
 int replacementOf(int tap, int taps) { return tap < taps ? tap + taps : tap - taps; }
 
+/// All taps of the window, none replaced.
+uint wholeWindow(int taps) {
+  uint window = taps == 32 ? 0xffffffffu : (1u << taps) - 1u;
+  return replacesTaps(taps) ? window << (taps - tapsBefore(taps)) : window;
+}
 /// Of pixels that are of the surface (bits of the reach), those that are taken.
 uint chosenTaps(uint same, int taps) {
-  uint window = taps == 32 ? 0xffffffffu : (1u << taps) - 1u;
+  uint window = wholeWindow(taps);
   if (!replacesTaps(taps)) return same & window;
-  window <<= taps - tapsBefore(taps);
   uint before = (1u << taps) - 1u, missing = ~same & window;
   return same & (window | ((missing & before) << taps) | ((missing & ~before) >> taps));
 }

@@ -66,6 +66,11 @@ const std::vector<Option>& options() {
        .help =
            "light of each colour that comes from one or two places is shaded as sharp as it is; off: three "
            "bands alone, as in the paper"},
+      {.name = "slopes",
+       .default_value = true,
+       .help =
+           "beside edges, where the window lies to one side, its mean is carried back to the pixel along the "
+           "light's slope; filter two_pass"},
       {.name = "window",
        .default_value = 1,
        .minimum = 1,
@@ -159,6 +164,7 @@ Plan planOf(const Settings& settings, int width, int height, Warnings& warnings)
         "filtered",
         settings.integer("window"), plan.sets.x, plan.sets.y, kMostTaps, plan.taps.x, plan.taps.y));
   plan.beams = settings.flag("beams");
+  plan.slopes = settings.flag("slopes");
   plan.depth_threshold = settings.number("depth_threshold");
   plan.normal_threshold = settings.number("normal_threshold");
   plan.bound = settings.number("bound");

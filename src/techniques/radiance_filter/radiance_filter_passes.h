@@ -27,7 +27,7 @@ struct Plan {
   int width = 0, height = 0;
   glm::ivec2 sets{1}, taps{1};  ///< across, down
   float depth_threshold = 1.0f, normal_threshold = 1.0f, bound = 1.0f;
-  bool lamps_in_field = false, views = false, beams = false;
+  bool lamps_in_field = false, views = false, beams = false, slopes = false;
   visibility::Means means = visibility::Means::kAuto;
   vpls::WalkOptions walks;
   std::vector<frame::Path> parts;  ///< one, or direct and indirect
@@ -76,7 +76,7 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
 /// Which point is which pixel (RF-2); `only_set` or kEverySet.
 Interleaving interleavingOf(const Plan& plan, const frame::GpuScene& scene, std::uint32_t only_set);
 
-/// RF-4: "radiance_filter.weights" and "radiance_filter.filter", or ".once". Values as before, where the weights say how much of
+/// RF-4: "radiance_filter.weights", ".filter", ".once", ".slopes". Values as before, where the weights say how much of
 /// the window was taken.
 gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            const Light& light);

@@ -23,6 +23,14 @@ GLOAM_SHARED_CONST float kCrease = 0.5f;
 GLOAM_SHARED_CONST int kMostTaps = 32;
 GLOAM_SHARED_CONST int kMostTapsReplaced = 16;
 
+/// Pixels by which the middle of a window must be off its pixel for light to be carried back along its slope; what stands for a window
+/// that is not full; how many times as steep as further on light may be there without being taken for the edge of a shadow; and the
+/// least that is left of it.
+GLOAM_SHARED_CONST float kLeastShift = 0.25f;
+GLOAM_SHARED_CONST float kNoShift = 1e9f;
+GLOAM_SHARED_CONST float kSteepest = 3.0f;
+GLOAM_SHARED_CONST float kLeastLeft = 0.65f;
+
 GLOAM_SHARED_CONST uint kEverySet = 0xffffffffu;
 
 /// Pixel (x, y) uses set x mod sets_x + sets_x (y mod sets_y) (RF-2). Points of one set stand together: place tile_width y' + x'
