@@ -1,7 +1,7 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Pixels beside edges, with the host's vector units: windows that the two passes cut row by row are filtered in one (RF-4), and means of windows that lie to
+// Pixels beside edges, with the host's vector units: windows of which rows would be replaced are filtered in one pass (RF-4), and means of windows that lie to
 // one side are carried back to their pixels.
 #include "math/simd_targets.h"
 // Highway compiles this file once an instruction set; the order of its headers matters.
@@ -15,7 +15,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "gloam/sh.h"
+#include "math/sh_constants.h"
 #include "techniques/radiance_filter/radiance_filter_host.h"
 #include "techniques/radiance_filter/radiance_filter_line.h"
 
@@ -23,10 +23,11 @@
 #define GLOAM_RADIANCE_FILTER_EDGES
 namespace gloam::radiance_filter {
 
-/// Where pixels stand, in halves of a layer: single ones, and runs as long as a vector.
+/// Pixels that are taken, a vector's worth at a time: where the first stands, in halves of a layer, and bits of which.
 struct Places {
-  int singles = 0, runs = 0;
-  std::int32_t single[kMostTaps * kMostTaps], run[kMostTaps * kMostTaps / 2];
+  int count = 0;
+  std::int32_t first[2 * kMostTaps * kMostTaps];
+  std::uint32_t bits[2 * kMostTaps * kMostTaps];
 };
 
 }  // namespace gloam::radiance_filter
@@ -52,32 +53,37 @@ int wholePixels(const HostSurfaces& s, int x, int y, std::uint32_t across, std::
   return hn::AllTrue(du, hn::Eq(differ, hn::Zero(du))) ? lanes : 0;
 }
 
-/// Bits of the reach in row `y` that are of the surface at `at`; `first` is where the reach begins in that row.
-std::uint32_t sameInRow(const HostSurfaces& s, std::size_t at, std::size_t first, int reach) {
+/// Bits of the reach, in rows one below another, that are of the surface at `at`; `first` is where the first row's reach begins.
+void sameInRows(const HostSurfaces& s, std::size_t at, std::size_t first, int reach, int rows,
+                std::uint32_t* same_of_row) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   const auto lanes = int(hn::Lanes(d));
   const auto normal_x = hn::Set(d, s.normal_x[at]), normal_y = hn::Set(d, s.normal_y[at]),
              normal_z = hn::Set(d, s.normal_z[at]);
   const auto x = hn::Set(d, s.x[at]), y = hn::Set(d, s.y[at]), z = hn::Set(d, s.z[at]);
-  std::uint32_t same = 0;
-  for (int i = 0; i < reach; i += lanes) {
-    const std::size_t b = first + std::size_t(i);
-    const auto off = hn::MulAdd(normal_x, hn::Sub(hn::LoadU(d, &s.x[b]), x),
-                                hn::MulAdd(normal_y, hn::Sub(hn::LoadU(d, &s.y[b]), y),
-                                           hn::Mul(normal_z, hn::Sub(hn::LoadU(d, &s.z[b]), z))));
-    const auto facing = hn::MulAdd(
-        normal_x, hn::LoadU(d, &s.normal_x[b]),
-        hn::MulAdd(normal_y, hn::LoadU(d, &s.normal_y[b]), hn::Mul(normal_z, hn::LoadU(d, &s.normal_z[b]))));
-    const auto near =
-        hn::And(hn::Le(hn::Abs(off), hn::Set(d, s.tolerance[at])), hn::Ge(facing, hn::Set(d, kCrease)));
-    const auto is =
-        hn::And(near, hn::RebindMask(d, hn::Eq(hn::LoadU(du, &s.objects[b]), hn::Set(du, s.objects[at]))));
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, is, bytes);
-    same |= (std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8) << i;
+  const auto tolerance = hn::Set(d, s.tolerance[at]);
+  const auto object = hn::Set(du, s.objects[at]);
+  const std::uint32_t of_reach = reach == 32 ? ~0u : (1u << reach) - 1u;
+  const std::size_t step = s.at(0, 1) - s.at(0, 0);
+  for (int row = 0; row < rows; ++row, first += step) {
+    std::uint32_t same = 0;
+    for (int i = 0; i < reach; i += lanes) {
+      const std::size_t b = first + std::size_t(i);
+      const auto off = hn::MulAdd(normal_x, hn::Sub(hn::LoadU(d, &s.x[b]), x),
+                                  hn::MulAdd(normal_y, hn::Sub(hn::LoadU(d, &s.y[b]), y),
+                                             hn::Mul(normal_z, hn::Sub(hn::LoadU(d, &s.z[b]), z))));
+      const auto facing = hn::MulAdd(normal_x, hn::LoadU(d, &s.normal_x[b]),
+                                     hn::MulAdd(normal_y, hn::LoadU(d, &s.normal_y[b]),
+                                                hn::Mul(normal_z, hn::LoadU(d, &s.normal_z[b]))));
+      const auto near = hn::And(hn::Le(hn::Abs(off), tolerance), hn::Ge(facing, hn::Set(d, kCrease)));
+      const auto is = hn::And(near, hn::RebindMask(d, hn::Eq(hn::LoadU(du, &s.objects[b]), object)));
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d, is, bytes);
+      same |= (std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8) << i;
+    }
+    same_of_row[row] = same & of_reach;
   }
-  return reach == 32 ? same : (same & ((1u << reach) - 1u));
 }
 
 /// Pixels that a vector holds, four halves each.
@@ -85,30 +91,40 @@ int pixelsOfVector() {
   return int(hn::Lanes(hn::CappedTag<float, 16>())) / 4;
 }
 
+/// All bits of the four numbers of each pixel of a vector that is taken, by the bits of which.
+struct Masks {
+  HWY_ALIGN std::uint32_t of[16][16];
+  constexpr Masks() : of{} {
+    for (std::uint32_t bits = 0; bits < 16; ++bits)
+      for (std::uint32_t i = 0; i < 16; ++i) of[bits][i] = (bits >> i / 4 & 1u) != 0 ? ~0u : 0u;
+  }
+};
+constexpr Masks kMasks;
+
 /// Sums of four halves over places, times `scale`, of kLayers layers side by side.
 template <int kLayers>
 void sumLayers(const hwy::float16_t* halves, std::size_t layer, const Places& places, float scale,
                std::uint16_t* to) {
   const hn::CappedTag<float, 16> d;
   const hn::CappedTag<float, 4> d4;
+  const hn::RebindToUnsigned<decltype(d)> du;
   const hn::Rebind<hwy::float16_t, decltype(d)> dh;
   const hn::Rebind<hwy::float16_t, decltype(d4)> dh4;
-  hn::Vec<decltype(d)> wide[kLayers];
-  hn::Vec<decltype(d4)> sum[kLayers];
-  for (int l = 0; l < kLayers; ++l) wide[l] = hn::Zero(d), sum[l] = hn::Zero(d4);
-  for (int i = 0; i < places.runs; ++i)
+  hn::Vec<decltype(d)> sum[kLayers];
+  for (int l = 0; l < kLayers; ++l) sum[l] = hn::Zero(d);
+  for (int i = 0; i < places.count; ++i) {
+    const auto taken = hn::BitCast(d, hn::LoadU(du, kMasks.of[places.bits[i]]));
+    const hwy::float16_t* first = halves + places.first[i];
     for (int l = 0; l < kLayers; ++l)
-      wide[l] =
-          hn::Add(wide[l], hn::PromoteTo(d, hn::LoadU(dh, halves + std::size_t(l) * layer + places.run[i])));
-  for (int i = 0; i < places.singles; ++i)
-    for (int l = 0; l < kLayers; ++l)
-      sum[l] = hn::Add(sum[l],
-                       hn::PromoteTo(d4, hn::LoadU(dh4, halves + std::size_t(l) * layer + places.single[i])));
+      sum[l] =
+          hn::Add(sum[l], hn::And(taken, hn::PromoteTo(d, hn::LoadU(dh, first + std::size_t(l) * layer))));
+  }
   HWY_ALIGN float parts[16];
   for (int l = 0; l < kLayers; ++l) {
-    hn::Store(wide[l], d, parts);
-    for (int i = 0; i < pixelsOfVector(); ++i) sum[l] = hn::Add(sum[l], hn::LoadU(d4, parts + 4 * i));
-    hn::StoreU(hn::DemoteTo(dh4, hn::Mul(sum[l], hn::Set(d4, scale))), dh4,
+    hn::Store(sum[l], d, parts);
+    auto four = hn::LoadU(d4, parts);
+    for (int i = 1; i < pixelsOfVector(); ++i) four = hn::Add(four, hn::LoadU(d4, parts + 4 * i));
+    hn::StoreU(hn::DemoteTo(dh4, hn::Mul(four, hn::Set(d4, scale))), dh4,
                reinterpret_cast<hwy::float16_t*>(to + std::size_t(l) * layer));
   }
 }
@@ -156,7 +172,7 @@ HWY_AFTER_NAMESPACE();
 namespace gloam::radiance_filter {
 
 HWY_EXPORT(wholePixels);
-HWY_EXPORT(sameInRow);
+HWY_EXPORT(sameInRows);
 HWY_EXPORT(pixelsOfVector);
 HWY_EXPORT(sumPlaces);
 HWY_EXPORT(carryBack);
@@ -164,42 +180,48 @@ HWY_EXPORT(loadFour);
 
 namespace {
 
-/// True where no row is replaced and all rows of the window took the same taps: then two passes are one.
-bool rowsAgree(const HostSurfaces& s, const Line& down, int x, int y) {
-  const std::uint32_t own = s.masks[0][s.pixel(x, y)], rows = s.masks[1][s.pixel(x, y)];
-  if (rows != down.whole()) return rows == 0;
-  for (std::uint32_t left = rows; left != 0; left &= left - 1)
-    if (s.masks[0][s.pixel(x, y + std::countr_zero(left) - down.reachBefore())] != own) return false;
-  return true;
+/// How far the middle of what two passes took lies off, where no row is replaced: then each took its sets beside the pixel.
+glm::vec2 shiftOfRows(const HostSurfaces& s, const Line& across, const Line& down, int x, int y) {
+  if (s.masks[1][s.pixel(x, y)] == 0) return glm::vec2(kNoShift);
+  float sum = 0.0f;
+  for (int j = 0; j < down.taps; ++j) {
+    const float shift = across.shift(s.masks[0][s.pixel(x, y + j - down.before())]);
+    if (shift == kNoShift) return glm::vec2(kNoShift);
+    sum += shift;
+  }
+  return {sum / float(down.taps), 0.0f};
 }
 
 /// What one pass takes around a pixel.
 class Taken {
  public:
   Taken(const HostSurfaces& s, const HostFilter& filter)
-      : s_(s), across_{filter.taps.x}, down_{filter.taps.y}, run_(HWY_DYNAMIC_DISPATCH(pixelsOfVector)()) {}
+      : s_(s),
+        across_{filter.taps.x},
+        down_{filter.taps.y},
+        run_(HWY_DYNAMIC_DISPATCH(pixelsOfVector)()),
+        pictures_end_(s.width * s.height) {}
 
   /// Returns how far the middle of what is taken lies off, or kNoShift.
   glm::vec2 at(int x, int y) {
-    for (int j = 0; j < down_.reach(); ++j) {
-      const int there = y + j - down_.reachBefore();
-      same_[j] = there < 0 || there >= s_.height
-                     ? 0
-                     : HWY_DYNAMIC_DISPATCH(sameInRow)(
-                           s_, s_.at(x, y), s_.at(x - across_.reachBefore(), there), across_.reach());
-    }
-    places.singles = places.runs = pixels_ = 0;
+    places.count = pixels_ = 0;
     sum_ = glm::ivec2(0);
-    rows_ = 0;
-    const int begin = down_.replaces() ? down_.taps - down_.before() : 0;
-    for (int j = begin; j < begin + down_.taps; ++j) {
+    const int begin = down_.replaces() ? down_.taps - down_.before() : 0, end = begin + down_.taps;
+    look(x, y, begin, end);
+    std::uint32_t lacking[kMostTaps], any = 0;
+    for (int j = begin; j < end; ++j) {
       const std::uint32_t own = across_.chosen(same_[j]);
       take(x, y, j, own);
-      if (!down_.replaces()) continue;
-      // Sets that this row lacks: from the other row that holds them, first those of its window.
-      const int other = j < down_.taps ? j + down_.taps : j - down_.taps;
-      const std::uint32_t lacking = across_.whole() & ~across_.setsOf(own);
-      take(x, y, other, across_.chosen(same_[other]) & across_.placesOf(lacking));
+      any |= lacking[j - begin] = across_.whole() & ~across_.setsOf(own);
+    }
+    if (any != 0 && down_.replaces()) {
+      look(x, y, 0, begin);
+      look(x, y, end, down_.reach());
+      // Sets that a row lacks: from the other row that holds them, first those of its window.
+      for (int j = begin; j < end; ++j) {
+        const int other = j < down_.taps ? j + down_.taps : j - down_.taps;
+        take(x, y, other, across_.chosen(same_[other]) & across_.placesOf(lacking[j - begin]));
+      }
     }
     if (pixels_ != across_.taps * down_.taps) return glm::vec2(kNoShift);
     const glm::ivec2 whole(down_.taps * Line::sumOf(across_.whole()),
@@ -207,48 +229,39 @@ class Taken {
     return glm::vec2(sum_ - whole) / float(pixels_);
   }
 
-  /// True where two passes take the same; then the places are those of the rows, halfway.
-  bool isOfTwoPasses(int x, int y) {
-    const std::uint32_t rows = s_.masks[1][s_.pixel(x, y)];
-    for (std::uint32_t left = rows_; left != 0; left &= left - 1) {
-      const int j = std::countr_zero(left);
-      if ((rows >> j & 1u) == 0 || s_.masks[0][s_.pixel(x, y + j - down_.reachBefore())] != taps_[j])
-        return false;
-    }
-    if (rows != rows_) return false;
-    places.singles = places.runs = 0;
-    for (std::uint32_t left = rows; left != 0; left &= left - 1)
-      places.single[places.singles++] =
-          4 * ((y + std::countr_zero(left) - down_.reachBefore()) * s_.width + x);
-    return true;
-  }
-
   Places places;
 
  private:
+  /// Which pixels of rows `begin` to before `end` of the reach are of the same surface.
+  void look(int x, int y, int begin, int end) {
+    const int top = y - down_.reachBefore();
+    std::fill(same_ + begin, same_ + end, 0u);
+    begin = std::max(begin, -top), end = std::min(end, s_.height - top);
+    if (begin < end) HWY_DYNAMIC_DISPATCH(sameInRows)
+    (s_, s_.at(x, y), s_.at(x - across_.reachBefore(), top + begin), across_.reach(), end - begin,
+     same_ + begin);
+  }
+
   void take(int x, int y, int j, std::uint32_t taps) {
     if (taps == 0) return;
-    rows_ |= 1u << j;
-    taps_[j] = taps;
-    const int row = 4 * ((y + j - down_.reachBefore()) * s_.width + x - across_.reachBefore());
-    const std::uint32_t of_run = (1u << run_) - 1u;
+    const int count = std::popcount(taps);
+    pixels_ += count;
+    sum_ += glm::ivec2(Line::sumOf(taps), count * j);
+    const int row = (y + j - down_.reachBefore()) * s_.width + x - across_.reachBefore();
     while (taps != 0) {
-      const int first = std::countr_zero(taps);
-      const bool is_run = (taps >> first & of_run) == of_run;
-      const int count = is_run ? run_ : 1;
-      (is_run ? places.run[places.runs++] : places.single[places.singles++]) = row + 4 * first;
-      taps &= is_run ? ~(of_run << first) : taps - 1;
-      pixels_ += count;
-      sum_ += glm::ivec2(count * first + count * (count - 1) / 2, count * j);
+      const int first = std::countr_zero(taps), back = std::max(0, row + first + run_ - pictures_end_);
+      const std::uint32_t bits = taps >> first & ((1u << (run_ - back)) - 1u);
+      places.first[places.count] = 4 * (row + first - back);
+      places.bits[places.count++] = bits << back;
+      taps &= ~(bits << first);
     }
   }
 
   const HostSurfaces& s_;
   Line across_, down_;
-  int run_, pixels_ = 0;
+  int run_, pictures_end_, pixels_ = 0;
   glm::ivec2 sum_{0};
   std::uint32_t same_[2 * kMostTaps];
-  std::uint32_t rows_ = 0, taps_[2 * kMostTaps];  ///< rows that hold something, and what
 };
 
 bool isSame(const HostSurfaces& s, glm::ivec2 p, glm::ivec2 q) {
@@ -301,14 +314,48 @@ struct Slope {
   }
 };
 
+void followSlope(const HostSurfaces& s, const HostFilter& filter, glm::ivec2 pixel,
+                 std::span<std::uint16_t> filtered) {
+  const glm::vec2 shift = s.shifts[s.pixel(pixel.x, pixel.y)], none(0.0f);
+  if (shift.x == kNoShift) return;
+  const float off = glm::length(shift);
+  if (off < kLeastShift) return;
+  const auto layer = 4 * std::size_t(s.width) * std::size_t(s.height);
+  const int taps = std::max(filter.taps.x, filter.taps.y);
+  const glm::ivec2 size(s.width, s.height);
+  for (const int wanted : {taps + taps / 2, taps}) {
+    const glm::ivec2 near = pixel + glm::ivec2(glm::roundEven(shift * (float(wanted) / off))),
+                     far = 2 * near - pixel;
+    if (glm::any(glm::lessThan(far, glm::ivec2(0))) || glm::any(glm::greaterThanEqual(far, size))) continue;
+    if (s.shifts[s.pixel(near.x, near.y)] != none || s.shifts[s.pixel(far.x, far.y)] != none) continue;
+    if (!isSame(s, pixel, near) || !isSame(s, pixel, far)) continue;
+    const float span = glm::dot(glm::vec2(near - pixel), shift / off);
+    if (!(span > off)) return;
+    const std::size_t at = s.at(pixel.x, pixel.y);
+    const float y[4] = {sh::kShNorm00, sh::kShNorm11 * s.normal_y[at], sh::kShNorm10 * s.normal_z[at],
+                        sh::kShNorm11 * s.normal_x[at]};
+    for (int part = 0; part < filter.parts; ++part) {
+      std::uint16_t* of_part = &filtered[std::size_t(part * filter.layers) * layer];
+      Slope{of_part + 4 * s.pixel(pixel.x, pixel.y),
+            of_part + 4 * s.pixel(near.x, near.y),
+            of_part + 4 * s.pixel(far.x, far.y),
+            layer,
+            filter.layers,
+            y}
+          .follow(off, span);
+    }
+    return;
+  }
+}
+
 }  // namespace
 
 void mendEdges(HostSurfaces& surfaces, const HostFilter& filter, int row,
-               std::span<const std::uint16_t> values, std::span<const std::uint16_t> halfway,
-               std::span<std::uint16_t> filtered) {
+               std::span<const std::uint16_t> values, std::span<std::uint16_t> filtered) {
   const HostSurfaces& s = surfaces;
   const Line across{filter.taps.x}, down{filter.taps.y};
   const std::size_t layer = 4 * std::size_t(s.width) * std::size_t(s.height);
+  if (s.width * s.height < HWY_DYNAMIC_DISPATCH(pixelsOfVector)()) return;
   Taken taken(s, filter);
   for (int x = 0; x < s.width; ++x) {
     const std::size_t at = s.pixel(x, row);
@@ -319,55 +366,27 @@ void mendEdges(HostSurfaces& surfaces, const HostFilter& filter, int row,
       x += pixels - 1;
       continue;
     }
-    if (rowsAgree(s, down, x, row)) {
-      const glm::vec2 shift(across.shift(s.masks[0][at]), down.shift(s.masks[1][at]));
-      surfaces.shifts[at] = std::max(shift.x, shift.y) < kNoShift ? shift : glm::vec2(kNoShift);
+    if (s.masks[1][at] == 0 || s.masks[1][at] == down.whole()) {
+      surfaces.shifts[at] = shiftOfRows(s, across, down, x, row);
       continue;
     }
     surfaces.shifts[at] = taken.at(x, row);
-    const bool once = !taken.isOfTwoPasses(x, row);
-    const int count = once ? filter.taps.x * filter.taps.y : filter.taps.y;
     HWY_DYNAMIC_DISPATCH(sumPlaces)
-    ((once ? values : halfway).data(), layer, filter.parts * filter.layers, taken.places, 1.0f / float(count),
-     &filtered[4 * at]);
+    (values.data(), layer, filter.parts * filter.layers, taken.places,
+     1.0f / float(filter.taps.x * filter.taps.y), &filtered[4 * at]);
   }
 }
 
-void followSlopes(const HostSurfaces& s, const HostFilter& filter, int row,
+bool hasSlopes(const HostSurfaces& s, int row, int from, int to) {
+  const glm::vec2* shifts = &s.shifts[s.pixel(0, row)];
+  return std::any_of(shifts + from, shifts + to, [](const glm::vec2& shift) {
+    return shift.x != kNoShift && glm::dot(shift, shift) >= kLeastShift * kLeastShift;
+  });
+}
+
+void followSlopes(const HostSurfaces& s, const HostFilter& filter, int row, int from, int to,
                   std::span<std::uint16_t> filtered) {
-  const auto layer = 4 * std::size_t(s.width) * std::size_t(s.height);
-  const int taps = std::max(filter.taps.x, filter.taps.y);
-  const glm::ivec2 size(s.width, s.height);
-  for (int x = 0; x < s.width; ++x) {
-    const glm::ivec2 pixel(x, row);
-    const glm::vec2 shift = s.shifts[s.pixel(x, row)];
-    if (shift == glm::vec2(0.0f) || shift.x == kNoShift) continue;
-    const float off = glm::length(shift);
-    if (off < kLeastShift) continue;
-    for (const int wanted : {taps + taps / 2, taps}) {
-      const glm::ivec2 near = pixel + glm::ivec2(glm::roundEven(shift * (float(wanted) / off))),
-                       far = 2 * near - pixel;
-      if (glm::any(glm::lessThan(far, glm::ivec2(0))) || glm::any(glm::greaterThanEqual(far, size))) continue;
-      const glm::vec2 none(0.0f);
-      if (s.shifts[s.pixel(near.x, near.y)] != none || s.shifts[s.pixel(far.x, far.y)] != none) continue;
-      if (!isSame(s, pixel, near) || !isSame(s, pixel, far)) continue;
-      const float span = glm::dot(glm::vec2(near - pixel), shift / off);
-      if (!(span > off)) break;
-      const std::size_t at = s.at(x, row);
-      const sh::Sh y = sh::evaluate(2, {s.normal_x[at], s.normal_y[at], s.normal_z[at]});
-      for (int part = 0; part < filter.parts; ++part) {
-        std::uint16_t* of_part = &filtered[std::size_t(part * filter.layers) * layer];
-        Slope{of_part + 4 * s.pixel(x, row),
-              of_part + 4 * s.pixel(near.x, near.y),
-              of_part + 4 * s.pixel(far.x, far.y),
-              layer,
-              filter.layers,
-              {&y[0], 4}}
-            .follow(off, span);
-      }
-      break;
-    }
-  }
+  for (int x = from; x < to; ++x) followSlope(s, filter, {x, row}, filtered);
 }
 
 }  // namespace gloam::radiance_filter

@@ -22,17 +22,20 @@ void readSurfaces(const Plan& plan, const Interleaving& in, const frame::FrameVi
       plan.depth_threshold * float(std::max(plan.taps.x, plan.taps.y)) * glm::length(view.step_x);
   tbb::parallel_for(0, plan.height, [&](int row) {
     const auto y = std::uint32_t(row);
-    for (std::uint32_t x = 0; x < in.width; ++x) {
-      const std::uint32_t set = y % in.sets_y * in.sets_x + x % in.sets_x;
-      const visibility::SightPoint& point =
-          points[(set * in.tile_height + y / in.sets_y) * in.tile_width + x / in.sets_x];
-      const float along = view.depth_range > 0.0f ? 1.0f : glm::dot(point.position - view.eye, view.forward);
-      const std::size_t at = surfaces.at(int(x), row);
-      surfaces.x[at] = point.position.x, surfaces.y[at] = point.position.y, surfaces.z[at] = point.position.z;
-      surfaces.normal_x[at] = point.normal.x, surfaces.normal_y[at] = point.normal.y;
-      surfaces.normal_z[at] = point.normal.z;
-      surfaces.tolerance[at] = footprints * along;
-      surfaces.objects[at] = ids[std::size_t(y) * in.width + x].x;
+    for (std::uint32_t x_set = 0; x_set < in.sets_x; ++x_set) {
+      const visibility::SightPoint* point =
+          &points[((y % in.sets_y * in.sets_x + x_set) * in.tile_height + y / in.sets_y) * in.tile_width];
+      for (std::uint32_t x = x_set; x < in.width; x += in.sets_x, ++point) {
+        const float along =
+            view.depth_range > 0.0f ? 1.0f : glm::dot(point->position - view.eye, view.forward);
+        const std::size_t at = surfaces.at(int(x), row);
+        surfaces.x[at] = point->position.x, surfaces.y[at] = point->position.y;
+        surfaces.z[at] = point->position.z;
+        surfaces.normal_x[at] = point->normal.x, surfaces.normal_y[at] = point->normal.y;
+        surfaces.normal_z[at] = point->normal.z;
+        surfaces.tolerance[at] = footprints * along;
+        surfaces.objects[at] = ids[std::size_t(y) * in.width + x].x;
+      }
     }
   });
 }
@@ -75,8 +78,7 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
   const bool shades = plan.keepsField();
   const gpu::BufferRef points = light.points, values = light.host_values, exposure = light.exposure,
                        view = inputs.view;
-  const gpu::BufferRef halfway = exchange.make("radiance_filter.host_halfway", layers * kFour),
-                       filtered = exchange.make("radiance_filter.host_filtered", layers * kFour),
+  const gpu::BufferRef filtered = exchange.make("radiance_filter.host_filtered", layers * kFour),
                        ids =
                            exchange.read("radiance_filter.host_ids", inputs.gbuffer.ids, sizeof(glm::uvec2));
   gpu::BufferRef normals, diffuse;
@@ -89,7 +91,7 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
                        exchange.make(fmt::format("radiance_filter.host_gloss_{}", part), kFour)});
   }
   auto& pass = graph.host(kPass);
-  pass.read(view).read(ids).read(points).read(exposure).read(values).write(halfway).write(filtered);
+  pass.read(view).read(ids).read(points).read(exposure).read(values).write(filtered);
   if (shades) pass.read(normals).read(diffuse);
   for (const PartRefs& part : parts) pass.write(part.irradiance).write(part.gloss);
   const Interleaving in = interleavingOf(plan, inputs.scene, kEverySet);
@@ -111,10 +113,9 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
                           .irradiance = access.map<std::uint16_t>(parts[i].irradiance),
                           .gloss = access.map<std::uint16_t>(parts[i].gloss)});
     const HostFilter filter{plan.taps, int(plan.parts.size()), plan.layers(), plan.slopes};
-    filterOnHost(surfaces, filter, access.map<std::uint16_t>(values), access.map<std::uint16_t>(halfway), all,
-                 [&](int row) {
-                   for (const HostShading& shading : shadings) shadeRow(surfaces, shading, row);
-                 });
+    filterOnHost(surfaces, filter, access.map<std::uint16_t>(values), all, [&](int row, int from, int to) {
+      for (const HostShading& shading : shadings) shadeRow(surfaces, shading, row, from, to);
+    });
   });
 
   HostResult result;

@@ -35,18 +35,20 @@ struct HostFilter {
   int parts = 1, layers = 1;  ///< layers of a part
   bool slopes = true;
 };
+/// A row, from one column to before another, is as it shall be.
+using RowDone = std::function<void(int row, int from, int to)>;
 /// Across and then down, on all cores, edges mended. `values`: halves, four a pixel, rows of a layer and layers one after another, as
-/// `halfway` and `filtered` are. `done` is called for each row, from any core, when it is whole.
+/// `filtered` is. `done` is called from any core.
 void filterOnHost(HostSurfaces& surfaces, const HostFilter& filter, std::span<const std::uint16_t> values,
-                  std::span<std::uint16_t> halfway, std::span<std::uint16_t> filtered,
-                  const std::function<void(int)>& done);
-/// Twin of radiance_filter_once: pixels of a row whose windows are not whole, in one pass where that takes others than the two; and
-/// shifts of all pixels of the row.
+                  std::span<std::uint16_t> filtered, const RowDone& done);
+/// Twin of radiance_filter_once: pixels of a row that would take other rows in place of their window's, in one pass; and shifts of all
+/// pixels of the row.
 void mendEdges(HostSurfaces& surfaces, const HostFilter& filter, int row,
-               std::span<const std::uint16_t> values, std::span<const std::uint16_t> halfway,
-               std::span<std::uint16_t> filtered);
-/// Twin of radiance_filter_slopes: a row, where it stands.
-void followSlopes(const HostSurfaces& surfaces, const HostFilter& filter, int row,
+               std::span<const std::uint16_t> values, std::span<std::uint16_t> filtered);
+/// Whether the row has pixels there whose windows lie to one side.
+bool hasSlopes(const HostSurfaces& surfaces, int row, int from, int to);
+/// Twin of radiance_filter_slopes: pixels of a row, where they stand.
+void followSlopes(const HostSurfaces& surfaces, const HostFilter& filter, int row, int from, int to,
                   std::span<std::uint16_t> filtered);
 
 /// What RF-5 makes of one part of the light, all images whole, halves four a pixel.
@@ -60,7 +62,7 @@ struct HostShading {
   float exposure = 1.0f;
   std::span<std::uint16_t> irradiance, gloss;  ///< out
 };
-/// Twin of radiance_filter_shade: one row.
-void shadeRow(const HostSurfaces& surfaces, const HostShading& shading, int row);
+/// Twin of radiance_filter_shade: of one row, columns from `from` to before `to`.
+void shadeRow(const HostSurfaces& surfaces, const HostShading& shading, int row, int from, int to);
 
 }  // namespace gloam::radiance_filter

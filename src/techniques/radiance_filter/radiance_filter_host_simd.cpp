@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 // clang-format on
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -83,6 +84,11 @@ void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* 
   }
 }
 
+/// True where a vector's pixels all took the same.
+HWY_INLINE bool allAre(const std::uint32_t* chosen, int pixels, std::uint32_t bits) {
+  return std::all_of(chosen, chosen + pixels, [bits](std::uint32_t of_pixel) { return of_pixel == bits; });
+}
+
 /// Mean over the taps of one pixel; halves `step` apart.
 void filterPixel(const std::uint16_t* first, std::ptrdiff_t step, std::uint32_t chosen, float share,
                  std::uint16_t* to) {
@@ -124,10 +130,15 @@ void filterAcross(const std::uint16_t* from, int taps, const std::uint32_t* chos
   const auto pixels = int(hn::Lanes(d)) / 4;
   const std::uint32_t whole = line.whole();
   const float share = 1.0f / float(taps);
-  const auto isWhole = [whole](std::uint32_t bits) { return bits == whole; };
-  if (width >= pixels) sumRuns(from, taps, width, sums);
+  if (std::find(chosen, chosen + width, whole) != chosen + width && width >= pixels)
+    sumRuns(from, taps, width, sums);
   for (int x = 0; x < width;) {
-    if (x + pixels <= width && std::all_of(chosen + x, chosen + x + pixels, isWhole)) {
+    if (x + pixels <= width && allAre(chosen + x, pixels, 0u)) {
+      std::fill_n(to + 4 * x, 4 * pixels, std::uint16_t(0));
+      x += pixels;
+      continue;
+    }
+    if (x + pixels <= width && allAre(chosen + x, pixels, whole)) {
       const auto sum = hn::LoadU(d, sums + 4 * (x - line.before()));
       hn::StoreU(hn::DemoteTo(dh, hn::Mul(sum, hn::Set(d, share))), dh,
                  reinterpret_cast<hwy::float16_t*>(to) + 4 * x);
@@ -151,11 +162,17 @@ void filterDown(const std::uint16_t* from, std::ptrdiff_t step, int taps, const 
   const auto* halves = reinterpret_cast<const hwy::float16_t*>(from);
   const auto load = [&](const hwy::float16_t* at) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(dh, at)); };
   for (int x = 0; x < width;) {
-    bool all = x + pixels <= width;
-    for (int r = 0; r < rows && all; ++r)
-      all = std::all_of(chosen + r * width + x, chosen + r * width + x + pixels,
-                        [whole](std::uint32_t bits) { return bits == whole; });
-    if (all) {
+    const auto all = [&](std::uint32_t bits) HWY_ATTR {
+      bool are = x + pixels <= width;
+      for (int r = 0; r < rows && are; ++r) are = allAre(chosen + r * width + x, pixels, bits);
+      return are;
+    };
+    if (all(0u)) {
+      for (int r = 0; r < rows; ++r) std::fill_n(to + r * step + 4 * x, 4 * pixels, std::uint16_t(0));
+      x += pixels;
+      continue;
+    }
+    if (all(whole)) {
       const hwy::float16_t* first = halves + 4 * x - line.before() * step;
       auto sum = load(first);
       for (int j = 1; j < taps; ++j) sum = hn::Add(sum, load(first + j * step));
@@ -205,40 +222,67 @@ std::size_t HostSurfaces::at(int px, int py) const {
   return std::size_t(py) * std::size_t(width + 2 * kMostTaps) + std::size_t(px + kMostTaps);
 }
 
-void filterOnHost(HostSurfaces& surfaces, const HostFilter& filter, std::span<const std::uint16_t> values,
-                  std::span<std::uint16_t> halfway, std::span<std::uint16_t> filtered,
-                  const std::function<void(int)>& done) {
+namespace {
+
+/// Rows of a strip, which one core filters from one end to the other while they are close at hand.
+int rowsOfStrip(int height) {
+  constexpr int kMost = 64, kLeast = 16;
+  const int cores = std::max(1, tbb::this_task_arena::max_concurrency());
+  const int rounds = (height + cores * kMost - 1) / (cores * kMost);
+  return std::max(kLeast, (height + cores * rounds - 1) / (cores * rounds));
+}
+
+/// RF-4 in both passes, of the rows of a strip.
+void filterStrip(const HostSurfaces& s, const HostFilter& filter, std::span<const std::uint16_t> values,
+                 int first, int end, std::span<std::uint16_t> filtered) {
   constexpr int kRows = 4;  // that share the sums of a window
-  const int width = surfaces.width, height = surfaces.height, layers = filter.parts * filter.layers;
-  const auto row = std::size_t(4 * width), layer = row * std::size_t(height);
-  const auto choose = [&](int y, int axis) {
-    std::uint32_t* masks = &surfaces.masks[axis][surfaces.pixel(0, y)];
-    HWY_DYNAMIC_DISPATCH(chooseRow)(surfaces, y, axis, filter.taps[axis], masks);
-    return masks;
+  const Line down{filter.taps.y};
+  const int begin = std::max(0, first - down.reachBefore()),
+            stop = std::min(s.height, end - down.reachBefore() + down.reach() - 1);
+  const std::size_t row = 4 * std::size_t(s.width), layer = row * std::size_t(s.height);
+  std::vector<float> sums(row + 4 * (kMostTaps + 4));
+  std::vector<std::uint16_t> halfway(row * std::size_t(stop - begin));
+  for (int l = 0; l < filter.parts * filter.layers; ++l) {
+    const std::size_t of_layer = std::size_t(l) * layer;
+    for (int y = begin; y < stop; ++y) HWY_DYNAMIC_DISPATCH(filterAcross)
+    (&values[of_layer + std::size_t(y) * row], filter.taps.x, &s.masks[0][s.pixel(0, y)], s.width,
+     sums.data(), &halfway[std::size_t(y - begin) * row]);
+    for (int y = first; y < end; y += kRows) HWY_DYNAMIC_DISPATCH(filterDown)
+    (&halfway[std::size_t(y - begin) * row], std::ptrdiff_t(row), filter.taps.y, &s.masks[1][s.pixel(0, y)],
+     std::min(kRows, end - y), s.width, &filtered[of_layer + std::size_t(y) * row]);
+  }
+}
+
+}  // namespace
+
+void filterOnHost(HostSurfaces& surfaces, const HostFilter& filter, std::span<const std::uint16_t> values,
+                  std::span<std::uint16_t> filtered, const RowDone& done) {
+  const int width = surfaces.width, height = surfaces.height;
+  tbb::parallel_for(0, height, [&](int y) {
+    for (const int axis : {0, 1}) HWY_DYNAMIC_DISPATCH(chooseRow)
+    (surfaces, y, axis, filter.taps[axis], &surfaces.masks[axis][surfaces.pixel(0, y)]);
+  });
+  // Calls f for blocks of a row that have slopes to follow, or that have none.
+  const auto eachBlock = [&](int y, bool slopes, const auto& f) {
+    for (int x = 0; x < width; x += HostShading::kBlock) {
+      const int end = std::min(width, x + HostShading::kBlock);
+      if ((filter.slopes && hasSlopes(surfaces, y, x, end)) == slopes) f(x, end);
+    }
   };
-  tbb::parallel_for(0, height, [&](int y) {
-    const std::uint32_t* masks = choose(y, 0);
-    std::vector<float> sums(row + 4 * (kMostTaps + 4));
-    for (int l = 0; l < layers; ++l) {
-      const std::size_t at = std::size_t(l) * layer + std::size_t(y) * row;
-      HWY_DYNAMIC_DISPATCH(filterAcross)
-      (&values[at], filter.taps.x, masks, width, sums.data(), &halfway[at]);
+  const int rows = rowsOfStrip(height);
+  tbb::parallel_for(0, (height + rows - 1) / rows, [&](int strip) {
+    const int first = rows * strip, end = std::min(height, first + rows);
+    filterStrip(surfaces, filter, values, first, end, filtered);
+    for (int y = first; y < end; ++y) {
+      mendEdges(surfaces, filter, y, values, filtered);
+      eachBlock(y, false, [&](int from, int to) { done(y, from, to); });
     }
   });
-  tbb::parallel_for(0, (height + kRows - 1) / kRows, [&](int block) {
-    const int first = kRows * block, rows = std::min(kRows, height - first);
-    for (int r = 0; r < rows; ++r) choose(first + r, 1);
-    for (int l = 0; l < layers; ++l) {
-      const std::size_t at = std::size_t(l) * layer + std::size_t(first) * row;
-      HWY_DYNAMIC_DISPATCH(filterDown)
-      (&halfway[at], std::ptrdiff_t(row), filter.taps.y, &surfaces.masks[1][surfaces.pixel(0, first)], rows,
-       width, &filtered[at]);
-    }
-    for (int r = 0; r < rows; ++r) mendEdges(surfaces, filter, first + r, values, halfway, filtered);
-  });
   tbb::parallel_for(0, height, [&](int y) {
-    if (filter.slopes) followSlopes(surfaces, filter, y, filtered);
-    done(y);
+    eachBlock(y, true, [&](int from, int to) {
+      followSlopes(surfaces, filter, y, from, to, filtered);
+      done(y, from, to);
+    });
   });
 }
 

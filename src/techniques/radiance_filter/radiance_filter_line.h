@@ -40,9 +40,9 @@ struct Line {
     return sets | (sets & early) << taps | (sets & ~early) >> taps;
   }
   static int sumOf(std::uint32_t mask) {
-    int sum = 0;
-    for (; mask != 0; mask &= mask - 1) sum += std::countr_zero(mask);
-    return sum;
+    return std::popcount(mask & 0xaaaaaaaau) + 2 * std::popcount(mask & 0xccccccccu) +
+           4 * std::popcount(mask & 0xf0f0f0f0u) + 8 * std::popcount(mask & 0xff00ff00u) +
+           16 * std::popcount(mask & 0xffff0000u);
   }
   /// Mean place of what is taken past that of the whole window, pixels; kNoShift where sets are missing.
   float shift(std::uint32_t mask) const {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The filter in one pass, every pixel of the window against the one in the middle (RF-4): the twin of the two passes, and what mends them where rows
-// of one window were cut differently. Keeps how far the middle of what was taken lies off the pixel.
+// of the window are replaced by others. Keeps how far the middle of what was taken lies off the pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,7 +13,7 @@ layout(constant_id = 1) const int taps_x = 4;
 layout(constant_id = 2) const int taps_y = 4;
 layout(constant_id = 3) const int layers = 7;  // of a part
 layout(constant_id = 4) const int parts = 1;
-layout(constant_id = 5) const bool every_pixel = true;  // else those that two passes did not do alike
+layout(constant_id = 5) const bool every_pixel = true;  // else those of which rows were replaced
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
@@ -44,25 +44,26 @@ float shiftOf(uint mask, int taps) {
   return float(sum) / float(taps);
 }
 
-/// True where no row is replaced and all rows of the window took the same taps: then two passes are one.
-bool rowsAgree(ivec2 pixel, ivec2 size) {
-  uint own = masks_across.at[pixel.y * size.x + pixel.x], rows = masks_down.at[pixel.y * size.x + pixel.x];
-  if (rows != wholeWindow(taps_y)) return rows == 0u;
-  bool agree = true;
-  for (uint left = rows; left != 0u; left &= left - 1u) {
-    int y = pixel.y + findLSB(left) - reachBefore(taps_y);
-    agree = agree && masks_across.at[y * size.x + pixel.x] == own;
+/// How far the middle of what two passes took lies off, where no row is replaced: then each took its sets beside the pixel.
+vec2 shiftOfRows(ivec2 pixel, ivec2 size) {
+  if (masks_down.at[pixel.y * size.x + pixel.x] == 0u) return vec2(kNoShift);
+  float sum = 0.0, most = 0.0;
+  for (int j = 0; j < taps_y; ++j) {
+    int y = pixel.y + j - tapsBefore(taps_y);
+    float shift = shiftOf(masks_across.at[y * size.x + pixel.x], taps_x);
+    sum += shift;
+    most = max(most, shift);
   }
-  return agree;
+  return most == kNoShift ? vec2(kNoShift) : vec2(sum / float(taps_y), 0.0);
 }
 
 void main() {
   ivec2 size = ivec2(push.limits.width, push.limits.height), pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
   int index = pixel.y * size.x + pixel.x;
-  if (!every_pixel && rowsAgree(pixel, size)) {
-    vec2 shift = vec2(shiftOf(masks_across.at[index], taps_x), shiftOf(masks_down.at[index], taps_y));
-    shifts.at[index] = max(shift.x, shift.y) < kNoShift ? shift : vec2(kNoShift);
+  uint rows = masks_down.at[index];
+  if (!every_pixel && (rows == 0u || rows == wholeWindow(taps_y))) {
+    shifts.at[index] = shiftOfRows(pixel, size);
     return;
   }
   Surface middle = surfaceAt(pixel, size);

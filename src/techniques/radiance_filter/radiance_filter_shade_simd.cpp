@@ -274,7 +274,14 @@ HWY_INLINE void shadeBlock(const HostSurfaces& s, const HostShading& shading, co
                            std::uint16_t* irradiance, std::uint16_t* gloss) {
   const D d;
   V values[4 * kFieldLayers], diffuse[4];
-  for (int l = 0; l < kFieldLayers; ++l) readFour(block.layers[l], values + 4 * l);
+  readFour(block.layers[kFieldLayers - 1], values + 4 * (kFieldLayers - 1));
+  if (hn::AllFalse(d, hn::Gt(values[4 * kFieldLayers - 1], set(0.0f)))) {
+    const V none[3] = {set(0.0f), set(0.0f), set(0.0f)};
+    writeColor(none, irradiance);
+    writeColor(none, gloss);
+    return;
+  }
+  for (int l = 0; l + 1 < kFieldLayers; ++l) readFour(block.layers[l], values + 4 * l);
   readFour(block.diffuse, diffuse);
   const V weight = values[4 * kFieldLayers - 1];
   const M lit = hn::Gt(weight, set(0.0f));
@@ -318,11 +325,11 @@ HWY_INLINE void shadeBlock(const HostSurfaces& s, const HostShading& shading, co
   writeColor(to_gloss, gloss);
 }
 
-void ShadeRow(const HostSurfaces& s, const HostShading& shading, int y) {
-  const auto lanes = std::size_t(hn::Lanes(D())), width = std::size_t(s.width);
+void ShadeRow(const HostSurfaces& s, const HostShading& shading, int y, int from, int to_column) {
+  const auto lanes = std::size_t(hn::Lanes(D())), width = std::size_t(s.width), end = std::size_t(to_column);
   const std::size_t row = std::size_t(y) * width;
-  for (std::size_t x = 0; x < width; x += lanes) {
-    const std::size_t pixel = row + x, count = std::min(lanes, width - x);
+  for (auto x = std::size_t(from); x < end; x += lanes) {
+    const std::size_t pixel = row + x, count = std::min(lanes, end - x);
     Block block;
     for (std::size_t l = 0; l < kFieldLayers; ++l)
       block.layers[l] = shading.values.data() + 4 * (l * width * std::size_t(s.height) + pixel);
@@ -359,8 +366,8 @@ namespace gloam::radiance_filter {
 
 HWY_EXPORT(ShadeRow);
 
-void shadeRow(const HostSurfaces& surfaces, const HostShading& shading, int row) {
-  HWY_DYNAMIC_DISPATCH(ShadeRow)(surfaces, shading, row);
+void shadeRow(const HostSurfaces& surfaces, const HostShading& shading, int row, int from, int to) {
+  HWY_DYNAMIC_DISPATCH(ShadeRow)(surfaces, shading, row, from, to);
 }
 
 }  // namespace gloam::radiance_filter
