@@ -5,13 +5,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #include "math/sh.glsl"
 #include "techniques/radiance_filter/radiance_filter_interleaving.glsl"
 #include "visibility/visibility_shared.h"
 #include "vpls/walks.glsl"
 
 #define GLOAM_VALUES (4 * kFieldLayers)
-layout(scalar, push_constant) uniform Push { Interleaving interleaving; } push;
+layout(scalar, push_constant) uniform Push { GatherParams gather; } push;
 
 void prepare(ivec2 pixel, SightPoint point) {}
 

@@ -22,7 +22,7 @@ struct Work {
   const vpls::Walks& walks;
   gpu::BufferRef points;
   gpu::ImageRef values, sums;
-  gpu::BufferRef host_values;  ///< in place of `values`, of which one texel is there then
+  gpu::BufferRef host_values;  ///< where for_host; of `values` one texel is there then
   gpu::BufferRef exposure;
   bool for_host;
 };
@@ -33,7 +33,12 @@ std::uint32_t pointsIn(const Interleaving& in) {
 
 /// Dispatches over points of all sets.
 void overPoints(gpu::ComputePass& pass, const Interleaving& in) {
-  pass.push(in).dispatchOver(int(in.tile_width), int(in.tile_height), int(in.sets_x * in.sets_y));
+  pass.dispatchOver(int(in.tile_width), int(in.tile_height), int(in.sets_x * in.sets_y));
+}
+
+glm::uvec2 addressOf(gpu::BufferRef buffer) {
+  const VkDeviceAddress address = buffer.buffer().address();
+  return {std::uint32_t(address), std::uint32_t(address >> 32)};
 }
 
 void recordPoints(const Work& work, const Interleaving& in) {
@@ -41,7 +46,8 @@ void recordPoints(const Work& work, const Interleaving& in) {
                  .read("frame_view", work.inputs.view)
                  .read("depth", work.inputs.gbuffer.depth)
                  .read("normals", work.inputs.gbuffer.normals)
-                 .write("points", work.points),
+                 .write("points", work.points)
+                 .push(in),
              in);
 }
 
@@ -78,7 +84,6 @@ void recordSet(const Work& work, visibility::Visibility& visibility, std::uint32
         .read("diffuse", work.inputs.gbuffer.diffuse);
   (step == kAlone || step == kFirst ? pass.write("sums", work.sums) : pass.readWrite("sums", work.sums))
       .write("values", work.values)
-      .write("host_values", work.host_values)
       .read("points", work.points)
       .read("rows", work.walks.rows)
       .read("sets", work.walks.sets)
@@ -86,8 +91,20 @@ void recordSet(const Work& work, visibility::Visibility& visibility, std::uint32
       .read("exposure", work.exposure)
       .specialize("step", int(step))
       .specialize("for_host", work.for_host)
-      .specialize("parts", int(work.plan.parts.size()));
+      .specialize("parts", int(work.plan.parts.size()))
+      .push(GatherParams{in, work.for_host ? addressOf(work.host_values) : glm::uvec2(0)});
+  if (work.for_host) pass.writeByAddress(work.host_values);
   overPoints(pass, in);
+}
+
+/// Points and what they see are bound whole.
+void checkSize(const gpu::Device& device, const Plan& plan, const vpls::Walks& walks) {
+  const std::size_t each = std::max(sizeof(visibility::SightPoint), walks.words() * sizeof(std::uint32_t)),
+                    most = device.limits().max_storage_bytes / each;
+  if (plan.pixels() > most)
+    throw Error("radiance_filter",
+                fmt::format("a picture of {} x {} pixels; '{}' takes {} at {} virtual lights a set",
+                            plan.width, plan.height, device.info().name, most, walks.stride));
 }
 
 }  // namespace
@@ -118,6 +135,7 @@ gpu::ImageRef createValues(gpu::FrameGraph& graph, const Plan& plan, const std::
 
 Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                    const vpls::Walks& walks, visibility::Visibility& visibility) {
+  checkSize(graph.device(), plan, walks);
   const bool sums = plan.brute() && walks.set_count > 1, for_host = filtersOnHost(graph.device(), plan);
   const Interleaving in = interleavingOf(plan, inputs.scene, plan.brute() ? 0 : kEverySet);
   const auto none = [&](const char* name, VkFormat format) {
@@ -137,7 +155,11 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
                : createValues(graph, plan, "radiance_filter.values", kValueFormat),
       sums ? createValues(graph, plan, "radiance_filter.sums", VK_FORMAT_R32G32B32A32_SFLOAT)
            : none("radiance_filter.no_sums", VK_FORMAT_R32G32B32A32_SFLOAT),
-      shared("radiance_filter.host_values", for_host ? halves * sizeof(std::uint16_t) : sizeof(glm::uvec2)),
+      for_host ? graph.create(
+                     "radiance_filter.host_values",
+                     gpu::BufferDesc{
+                         .bytes = halves * sizeof(std::uint16_t), .host_visible = true, .by_address = true})
+               : gpu::BufferRef(),
       shared("radiance_filter.exposure", sizeof(float)),
       for_host};
   if (!plan.brute()) {

@@ -18,7 +18,7 @@ layout(scalar, set = 0, binding = 3) readonly buffer Visible { uint at[]; } visi
 layout(scalar, set = 0, binding = 4) readonly buffer Exposure { float at[]; } exposure;
 layout(set = 0, binding = 5) uniform writeonly image2DArray values;
 layout(set = 0, binding = 6, rgba32f) uniform image2DArray sums;
-layout(scalar, set = 0, binding = 10) writeonly buffer HostValues { uvec2 at[]; } host_values;  // layers of rows of four halves
+layout(scalar, buffer_reference, buffer_reference_align = 8) writeonly buffer HostValues { uvec2 at[]; };  // layers of rows of four halves
 
 const float kLargestHalf = 65504.0;
 
@@ -38,7 +38,7 @@ void addRows(inout float sum[GLOAM_VALUES], uint index, uint point_count, SightP
   do {
     uint row = first + (word - 1u) * 32u + uint(findLSB(left));
     WalkVpl vpl = rows.at[row];
-    if (vpl.bounce > 0u) vpl.bound *= push.interleaving.bound;
+    if (vpl.bounce > 0u) vpl.bound *= push.gather.interleaving.bound;
     vec3 to_light;
     vec3 light = walkIrradiance(vpl, point.position, to_light);
     addLight(sum, light, to_light);
@@ -63,8 +63,8 @@ void keep(float sum[GLOAM_VALUES], int part, ivec2 pixel, float weight) {
     }
     vec4 kept = clamp(four * scale, -kLargestHalf, kLargestHalf);
     if (for_host) {
-      uint row = uint(place.z) * push.interleaving.height + uint(place.y);
-      host_values.at[row * push.interleaving.width + uint(place.x)] = uvec2(packHalf2x16(kept.xy), packHalf2x16(kept.zw));
+      uint row = uint(place.z) * push.gather.interleaving.height + uint(place.y);
+      HostValues(push.gather.host_values).at[row * push.gather.interleaving.width + uint(place.x)] = uvec2(packHalf2x16(kept.xy), packHalf2x16(kept.zw));
     } else {
       imageStore(values, place, kept);
     }
@@ -72,7 +72,7 @@ void keep(float sum[GLOAM_VALUES], int part, ivec2 pixel, float weight) {
 }
 
 void main() {
-  Interleaving in_ = push.interleaving;
+  Interleaving in_ = push.gather.interleaving;
   ivec2 place = pixelOfPoint(in_, gl_GlobalInvocationID);
   if (isBeyondTile(in_, gl_GlobalInvocationID) || !isInPicture(in_, place)) return;
   uint index = pointIndex(in_, gl_GlobalInvocationID), point_count = in_.tile_width * in_.tile_height * in_.sets_x * in_.sets_y;

@@ -42,13 +42,14 @@ void readSurfaces(const Plan& plan, const Interleaving& in, const frame::FrameVi
 
 constexpr const char* kPass = "radiance_filter.filter";
 
-/// Copies between images and memory that the host reads, named as the pass, whose time they are.
+/// Copies between images and memory that the host reads, larger than a binding where need be, named as the pass, whose time they are.
 struct Exchange {
   gpu::FrameGraph& graph;
   std::size_t pixels;
 
   gpu::BufferRef make(const std::string& name, std::size_t bytes_a_pixel) const {
-    return graph.create(name, gpu::BufferDesc{.bytes = pixels * bytes_a_pixel, .host_visible = true});
+    return graph.create(
+        name, gpu::BufferDesc{.bytes = pixels * bytes_a_pixel, .host_visible = true, .by_address = true});
   }
   gpu::BufferRef read(const std::string& name, gpu::ImageRef image, std::size_t bytes_a_pixel) const {
     const gpu::BufferRef buffer = make(name, bytes_a_pixel);

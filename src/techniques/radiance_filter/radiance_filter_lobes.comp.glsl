@@ -6,6 +6,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
 #include "frame/view.glsl"
@@ -15,7 +17,7 @@
 #include "vpls/walks.glsl"
 
 #define GLOAM_VALUES (4 * kLobeLayers)
-layout(scalar, push_constant) uniform Push { Interleaving interleaving; } push;
+layout(scalar, push_constant) uniform Push { GatherParams gather; } push;
 layout(scalar, set = 0, binding = 7) uniform ViewBlock { FrameView view; } frame_view;
 layout(set = 0, binding = 8) uniform usampler2D normals;
 layout(set = 0, binding = 9) uniform sampler2D diffuse;

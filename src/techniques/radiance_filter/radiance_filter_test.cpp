@@ -224,6 +224,34 @@ TEST(RadianceFilter, ViewsAreKeptForWhoAsksByName) {
   }
 }
 
+// What the host filters is larger here than a binding of the software driver's. Light from afar on a plane is as in a small picture.
+TEST(RadianceFilter, LargePicturesAreDrawn) {
+  const Scene scene = frame::planeScene("preetham?elevation=40");
+  const Values few = {{"sets", "2"}, {"direct", "8"}, {"indirect", "1"}};
+  const auto with = [&](int width, int height) { return draw(scene, few, width, height, &frame::kAbove); };
+  const auto mean = [](const Picture& picture) {
+    double sum = 0.0, covered = 0.0;
+    for (std::size_t i = 0; i < picture.ids.size(); ++i) {
+      if (picture.ids[i].x == 0) continue;
+      covered += 1.0;
+      sum += picture.direct[4 * i];
+    }
+    return sum / covered;
+  };
+  const double small = mean(with(160, 90)), large = mean(with(1600, 900));
+  EXPECT_GT(small, 0.0);
+  EXPECT_NEAR(large / small, 1.0, 0.002);
+  try {
+    with(16000, 300);
+    const gpu::Device& device = gpu::testDevice();
+    EXPECT_GE(device.limits().max_storage_bytes, 32u * 16000u * 300u);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("radiance_filter: a picture of 16000 x 300 pixels"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(RadianceFilter, SamePictureAgain) {
   const Scene scene = loadScene("builtin:cornell?detail=0.3");
   EXPECT_EQ(draw(scene, {}, 60, 40).color, draw(scene, {}, 60, 40).color);
