@@ -36,8 +36,9 @@ glm::vec3 colorOfNumber(std::uint32_t number) {
   return glm::vec3(h & 255u, (h >> 8) & 255u, (h >> 16) & 255u) / 255.0f * 0.8f + 0.1f;
 }
 
-bool isPacked(const std::string& name) {
-  return name.ends_with("_packed");
+/// False of numbers for a pass to come, and of what stands in where an image is bound and not there.
+bool isPicture(const std::string& name) {
+  return !name.ends_with("_packed") && !name.ends_with("none") && name != "frame.black";
 }
 
 }  // namespace
@@ -62,14 +63,14 @@ LayeredImage readLayers(const frame::FrameImages& images, bool parts) {
 std::vector<std::string> shownNames(const gpu::FrameGraph& graph) {
   std::vector<std::string> names;
   for (const std::string& name : graph.imageNames()) {
-    if (!isPacked(name) && name != "frame.black") names.push_back(name);
+    if (isPicture(name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
 Image readShown(const gpu::FrameGraph& graph, const std::string& name, int width, int height) {
-  const gpu::ImageRef ref = isPacked(name) ? gpu::ImageRef() : graph.find(name);
+  const gpu::ImageRef ref = isPicture(name) ? graph.find(name) : gpu::ImageRef();
   if (!ref)
     throw Error("show '" + name + "'", fmt::format("no such image in this frame; there are: {}",
                                                    fmt::join(shownNames(graph), ", ")));

@@ -256,6 +256,14 @@ TEST(Renderer, AnyImageOfTheFrameCanBeShown) {
   }
   options.show = "frame.motion";  // drawn only where it is asked for
   EXPECT_NO_THROW(draw(loadScene("builtin:furnace"), options));
+  options.technique = "radiance_filter";  // of what is on the way, pictures alone are named
+  options.settings = Settings(technique("radiance_filter").options);
+  options.show = "radiance_filter.X";
+  const std::string listed = errorOf([&] { draw(loadScene("builtin:furnace"), options); });
+  EXPECT_NE(listed.find("radiance_filter.raw_0"), std::string::npos) << listed;
+  for (const char* inner : {"radiance_filter.values", "radiance_filter.filtered", "none"})
+    EXPECT_EQ(listed.find(inner), std::string::npos) << listed;
+  options.technique = "irradiance", options.settings = {};
   options.show = "prt.vertices";
   EXPECT_NE(errorOf([&] { draw(loadScene("builtin:furnace"), options); }).find("frame.depth"),
             std::string::npos);

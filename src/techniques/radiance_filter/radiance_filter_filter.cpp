@@ -68,7 +68,7 @@ Masks recordMasks(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, cons
 
 void recordTwoPasses(gpu::FrameGraph& graph, const Plan& plan, const Masks& masks, gpu::ImageRef values,
                      gpu::ImageRef filtered) {
-  const gpu::ImageRef halfway = createValues(graph, plan, "radiance_filter.halfway", values.format());
+  const gpu::ImageRef halfway = createValues(graph, plan, "radiance_filter.halfway_packed", values.format());
   for (int axis = 0; axis < 2; ++axis) {
     auto& filter = graph.compute("radiance_filter.filter", radiance_filter_filter_spv);
     filter.read("masks", masks.of(axis))
@@ -84,7 +84,8 @@ void recordTwoPasses(gpu::FrameGraph& graph, const Plan& plan, const Masks& mask
 gpu::ImageRef recordFilter(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,
                            const Light& light) {
   if (plan.filter == Filter::kNone || plan.taps == glm::ivec2(1)) return light.values;
-  const gpu::ImageRef filtered = createValues(graph, plan, "radiance_filter.filtered", light.values.format());
+  const gpu::ImageRef filtered =
+      createValues(graph, plan, "radiance_filter.filtered_packed", light.values.format());
   const Masks masks = recordMasks(graph, inputs, plan);
   const bool one_pass = plan.filter == Filter::kOnePass;
   if (!one_pass) recordTwoPasses(graph, plan, masks, light.values, filtered);

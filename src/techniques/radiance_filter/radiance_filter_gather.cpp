@@ -151,10 +151,10 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
       plan,
       walks,
       shared("radiance_filter.points", std::size_t(pointsIn(in)) * sizeof(visibility::SightPoint)),
-      for_host ? none("radiance_filter.no_values", kValueFormat)
-               : createValues(graph, plan, "radiance_filter.values", kValueFormat),
-      sums ? createValues(graph, plan, "radiance_filter.sums", VK_FORMAT_R32G32B32A32_SFLOAT)
-           : none("radiance_filter.no_sums", VK_FORMAT_R32G32B32A32_SFLOAT),
+      for_host ? none("radiance_filter.values_none", kValueFormat)
+               : createValues(graph, plan, "radiance_filter.values_packed", kValueFormat),
+      sums ? createValues(graph, plan, "radiance_filter.sums_packed", VK_FORMAT_R32G32B32A32_SFLOAT)
+           : none("radiance_filter.sums_none", VK_FORMAT_R32G32B32A32_SFLOAT),
       for_host ? graph.create(
                      "radiance_filter.host_values",
                      gpu::BufferDesc{
@@ -175,7 +175,7 @@ Light recordGather(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, con
   if (!for_host) return {.values = work.values, .exposure = work.exposure};
   Light light{.exposure = work.exposure, .points = work.points, .host_values = work.host_values};
   if (plan.views) {
-    light.values = createValues(graph, plan, "radiance_filter.values", kValueFormat);
+    light.values = createValues(graph, plan, "radiance_filter.values_packed", kValueFormat);
     graph.copy("radiance_filter.views", light.host_values, light.values);
   }
   return light;

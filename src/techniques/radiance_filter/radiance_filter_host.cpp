@@ -121,7 +121,8 @@ HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs
 
   HostResult result;
   if (!shades || plan.views) {
-    result.filtered = createValues(graph, plan, "radiance_filter.filtered", VK_FORMAT_R16G16B16A16_SFLOAT);
+    result.filtered =
+        createValues(graph, plan, "radiance_filter.filtered_packed", VK_FORMAT_R16G16B16A16_SFLOAT);
     graph.copy(kPass, filtered, result.filtered);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {

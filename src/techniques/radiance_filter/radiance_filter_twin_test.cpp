@@ -79,7 +79,7 @@ Filtered filter(const Scene& scene, const char* kind, const std::function<float(
   result.normals = frame.graph.find("frame.normals_packed").image().download<glm::uvec2>();
   result.positions = frame.floats("frame.receiver_position_1");
   result.view = frame.graph.findBuffer("frame.view").buffer().download<frame::FrameView>().at(0);
-  const gpu::Image& filtered = frame.graph.find("radiance_filter.filtered").image();
+  const gpu::Image& filtered = frame.graph.find("radiance_filter.filtered_packed").image();
   result.after = filtered.downloadFloats(0, 2);
   const std::vector<float> weights = filtered.downloadFloats(0, kFieldLayers - 1);
   for (std::size_t i = 0; i < result.after.size(); ++i) {
@@ -253,7 +253,7 @@ TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
   const auto exposure = frame.graph.findBuffer("radiance_filter.exposure").buffer().download<float>().at(0);
   const auto rows = frame.graph.findBuffer("vpls.walk_rows").buffer().download<vpls::WalkVpl>();
   const auto sets = frame.graph.findBuffer("vpls.walk_sets").buffer().download<visibility::SightSet>();
-  const gpu::Image& values = frame.graph.find("radiance_filter.values").image();
+  const gpu::Image& values = frame.graph.find("radiance_filter.values_packed").image();
   std::vector<std::vector<float>> layers;
   for (int l = 0; l < kFieldLayers; ++l) layers.push_back(values.downloadFloats(0, l));
   const auto diffuse = frame.floats("radiance_filter.irradiance_direct");
