@@ -48,7 +48,8 @@ void remarkDark(const TechniqueInfo& technique, const Settings& settings, const 
   }
   const Coverage covers = coverageWith(technique, settings);
   if (both(covers, in_scene) != Coverage{}) return;
-  console.remark(fmt::format("{} has no light here: it covers {}, the scene has {}", technique.name,
+  console.remark(fmt::format("{} has no light here: {} {}, the scene has {}", technique.name,
+                             covers == technique.covers ? "it covers" : "with these options it covers",
                              fmt::join(coverageNames(covers), ", "),
                              fmt::join(coverageNames(in_scene), ", ")));
 }

@@ -206,8 +206,11 @@ WalkPlan planWalks(const WalkOptions& options, std::size_t lamps, int candidates
   const std::int64_t each =
       std::int64_t(options.direct) + (options.indirect + further) * candidates + options.most_lamps;
   if (each * options.sets > kMostRows)
-    throw Error("virtual lights", fmt::format("{} sets of {} rows; expected at most {} rows in all",
-                                              options.sets, each, kMostRows));
+    throw Error("virtual lights",
+                fmt::format("{} sets of {} rows, by direct {}, indirect {}, bounces {} and candidates {}; "
+                            "expected at most {} rows in all",
+                            options.sets, each, options.direct, options.indirect, options.bounces,
+                            options.candidates, kMostRows));
   WalkPlan plan;
   plan.sets = options.sets;
   plan.lamps = int(std::min(lamps, std::size_t(options.most_lamps)));

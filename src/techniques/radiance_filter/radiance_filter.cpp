@@ -50,10 +50,11 @@ frame::Lighting RadianceFilter::record(gpu::FrameGraph& graph, const frame::Fram
   frame::Lighting lighting{.has_local_direct = plan.lamps_in_field, .has_environment_gloss = true};
   const vpls::Walks walks = walker_.record(graph, inputs, plan.walks, visibility_.world());
   if (walks.set_count == 0) {
-    inputs.warnings.emplace_back(
-        "no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect): lamps light, "
-        "by "
-        "their maps, and nothing else does");
+    // Without lamps there is no light at all, which is said by whoever compares coverage with the scene.
+    if (!inputs.shadow_maps.lights.empty())
+      inputs.warnings.emplace_back(
+          "no virtual lights were asked for (radiance_filter.direct, radiance_filter.indirect): lamps "
+          "light, by their maps, and nothing else does");
     return lighting;
   }
   if (plan.keepsField()) remarkSharpMaterials(inputs, plan.beams);

@@ -105,7 +105,7 @@ const std::vector<Option>& options() {
        .default_value = false,
        .help =
            "keeps images to look at, not only those that --show names: radiance_filter.set, raw_0 … raw_2, "
-           "bands_0 … bands_2, weights"}};
+           "bands_0 … bands_2 (in irradiance modes _0, irradiance, and _1, gloss, alone), weights"}};
   return options;
 }
 
