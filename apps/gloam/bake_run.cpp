@@ -7,6 +7,7 @@
 #include <scene/animation.h>
 #include <techniques/prt/prt_bake_state.h>
 
+#include <functional>
 #include <optional>
 
 #include "cache_folder.h"
@@ -38,19 +39,18 @@ std::optional<Scene> readKept(const fs::path& file) {
 }
 
 /// A checkpoint that cannot be used (of an older gloam, damaged) is nobody's but the cache's: it goes, the bake begins anew.
-Scene bakeResumed(const Scene& scene, const BakeOptions& options, Console& console, BakeReport& report) {
+Scene bakeResumed(const fs::path& checkpoint, const std::function<Scene()>& bake) {
   std::error_code ignored;
   try {
     try {
-      return bakeTransfer(scene, options, console.progress(), &report);
+      return bake();
     } catch (const Error&) {
-      if (!fs::remove(options.checkpoint, ignored)) throw;
-      return bakeTransfer(scene, options, console.progress(), &report);
+      if (!fs::remove(checkpoint, ignored)) throw;
+      return bake();
     }
   } catch (const Interrupted&) {
-    throw Interrupted(options.checkpoint.empty()
-                          ? "interrupted while baking"
-                          : "interrupted while baking; the same command goes on from here");
+    throw Interrupted(checkpoint.empty() ? "interrupted while baking"
+                                         : "interrupted while baking; the same command goes on from here");
   }
 }
 
@@ -128,11 +128,17 @@ Scene bakeForDrawing(const Scene& scene, const std::string& place, BakeOptions o
   console.release();
   BakeReport report;
   VolumeReport clouds;
-  const bool cloudy = carriesUnbakedVolumes(scene);
-  Scene baked = bakeResumed(cloudy ? bakeVolumes(scene, {.order = options.order, .time_s = options.time_s},
-                                                 console.progress(), &clouds)
-                                   : scene,
-                            options, console, report);
+  Scene cloudy = scene;
+  VolumeBakeOptions volumes = {.order = options.order, .time_s = options.time_s};
+  if (folder) volumes.checkpoint = options.checkpoint.string() + ".volumes";
+  volumes.keep_checkpoint = true;  // until transfer is done, too
+  if (carriesUnbakedVolumes(scene))
+    cloudy = bakeResumed(volumes.checkpoint,
+                         [&] { return bakeVolumes(scene, volumes, console.progress(), &clouds); });
+  Scene baked = bakeResumed(options.checkpoint,
+                            [&] { return bakeTransfer(cloudy, options, console.progress(), &report); });
+  if (std::error_code ignored; folder) fs::remove(volumes.checkpoint, ignored);
+  report.resumed = report.resumed || clouds.resumed;
   report.bounces_s += clouds.seconds;
   *time = timeOf(report);
   console.endProgress();

@@ -6,6 +6,8 @@
 
 #include <gloam/scene.h>
 
+#include <filesystem>
+
 namespace gloam {
 
 /// Density in a box that stands in the axes of the node that carries it. Voxel (x, y, z), x first, is centred at
@@ -26,13 +28,15 @@ struct Volume {
 };
 
 struct VolumeBakeOptions {
-  int order = 5;                 ///< bands of light, 3 to 6
-  int scatterings = 16;          ///< orders of scattering that are drawn, 1 (single) to 256
-  int directions = 512;          ///< in which a voxel looks out, 64 to 65536
-  int scatter_directions = 64;   ///< in which it gathers from other voxels, 16 to 65536
-  int threads = 0;               ///< 0: all cores. The result does not depend on it
-  float time_s = 0.0f;           ///< instant at which the scene is posed
-  std::size_t memory_bytes = 0;  ///< most that the bake may take; 0: what the machine has
+  int order = 5;                     ///< bands of light, 3 to 6
+  int scatterings = 16;              ///< orders of scattering that are drawn, 1 (single) to 256
+  int directions = 512;              ///< in which a voxel looks out, 64 to 65536
+  int scatter_directions = 64;       ///< in which it gathers from other voxels, 16 to 65536
+  int threads = 0;                   ///< 0: all cores. The result does not depend on it
+  float time_s = 0.0f;               ///< instant at which the scene is posed
+  std::size_t memory_bytes = 0;      ///< most that the bake may take; 0: what the machine has
+  std::filesystem::path checkpoint;  ///< as BakeOptions::checkpoint, of all volumes together
+  bool keep_checkpoint = false;      ///< as BakeOptions::keep_checkpoint; to be removed by the caller
 };
 
 struct VolumeEstimate {
@@ -48,6 +52,7 @@ struct VolumeReport {
   /// What the last order of scattering still added, as a share of all scattered light under even light, of the volume for which
   /// it is greatest: what further orders would add is about this, times the number of orders a photon lives.
   double last_order = 0.0;
+  bool resumed = false;  ///< a checkpoint brought work along, which `seconds` does not count
 };
 
 /// Whether any node carries a volume; and one that is not baked.
@@ -61,7 +66,8 @@ VolumeEstimate estimateVolumes(const Scene& scene, const VolumeBakeOptions& opti
 
 /// Transfer of every volume's voxels, single scattering and further orders; the scene's rigid meshes block light from outside.
 /// Each volume is baked as if the others were not there. Same bits for any number of threads. Throws Error for options out of
-/// range, a volume whose numbers do not fit and one that takes more memory than is granted; Interrupted when asked to stop.
+/// range, a volume whose numbers do not fit and one that takes more memory than is granted; Interrupted when asked to stop
+/// (the checkpoint stays).
 Scene bakeVolumes(const Scene& scene, const VolumeBakeOptions& options, const Progress& progress = {},
                   VolumeReport* report = nullptr);
 

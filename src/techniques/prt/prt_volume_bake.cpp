@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <mutex>
 #include <optional>
 
 #include "math/sampling.h"
@@ -23,6 +22,7 @@
 #include "scene/transforms.h"
 #include "scene/volume_places.h"
 #include "techniques/prt/prt_volume_march.h"
+#include "techniques/prt/prt_volume_state.h"
 #include "trace/tracer.h"
 
 namespace gloam {
@@ -51,32 +51,6 @@ std::size_t filledVoxels(const Volume& volume) {
   return VolumeMarcher(volume, 1.0f).filled().size();
 }
 
-/// Tells how far the bake is and asks whether to stop; called by all threads.
-class VolumeMeter {
- public:
-  VolumeMeter(const Progress& progress, double work) : progress_(progress), work_(work) {}
-  /// False to stop.
-  bool done(double work, const char* what) {
-    const std::scoped_lock lock(mutex_);
-    done_ += work;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ > std::chrono::milliseconds(100)) {
-      last_ = now;
-      progress_.report(std::min(1.0, done_ / work_), what);
-      stopped_ = stopped_ || progress_.stopRequested();
-    }
-    return !stopped_;
-  }
-
- private:
-  const Progress& progress_;
-  const double work_;
-  double done_ = 0.0;
-  bool stopped_ = false;
-  std::chrono::steady_clock::time_point last_{};
-  std::mutex mutex_;
-};
-
 /// What stands in the light's way, in the axes of the volume's node.
 struct Blockers {
   glm::mat3 scale{1.0f};  // from the node's coordinates to these axes
@@ -102,62 +76,68 @@ Blockers blockersOf(const Scene& scene, PosedScene posed, const glm::mat4& world
   return blockers;
 }
 
-/// One volume's passes. Rows of all voxels lie end to end, [filled voxel][coefficient].
+/// One volume's passes.
 class VolumeBake {
  public:
   VolumeBake(const Volume& volume, const Blockers& blockers, const VolumeBakeOptions& options,
-             VolumeMeter& meter)
-      : volume_(volume),
-        blockers_(blockers),
+             VolumeState& state, VolumeMeter& meter)
+      : blockers_(blockers),
         options_(options),
+        state_(state),
         meter_(meter),
         even_(evenMedium(volume)),
         marcher_(volume, even_.extinction, glm::inverse(blockers.scale)),
-        coefficients_(std::size_t(options.order * options.order)),
-        row_((coefficients_ + 3) / 4 * 4) {}
+        coefficients_(std::size_t(options.order * options.order)) {
+    if (!state.begun()) state.begin(volume, marcher_.filled().size(), options);
+  }
 
-  Transfer run(double* last_order);
+  void run();
 
  private:
   template <class Work>
-  void eachVoxel(double work, const char* what, const Work& work_on) const;
-  void lookOut(std::vector<float>& rows) const;
-  void scatter(const std::vector<float>& from, std::vector<float>& to) const;
-  double constantOf(const std::vector<float>& rows) const;
+  void eachVoxel(const Work& work_on) const;
+  void lookOut() const;
+  void scatter() const;
+  void spread(const glm::vec3& factor, std::size_t colors, std::vector<float>& values) const;
+  void finishPass();
 
-  const Volume& volume_;
   const Blockers& blockers_;
   const VolumeBakeOptions& options_;
+  VolumeState& state_;
   VolumeMeter& meter_;
   EvenMedium even_;
   VolumeMarcher marcher_;
-  std::size_t coefficients_, row_;
+  std::size_t coefficients_;
 };
 
 template <class Work>
-void VolumeBake::eachVoxel(double work, const char* what, const Work& work_on) const {
+void VolumeBake::eachVoxel(const Work& work_on) const {
   std::atomic<bool> stop{false};
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, marcher_.filled().size(), 256),
+      tbb::blocked_range<std::size_t>(0, state_.blocks, 1),
       [&](const auto& range) {
-        if (stop) return;
-        for (std::size_t v = range.begin(); v != range.end(); ++v) work_on(v);
-        if (!meter_.done(work * double(range.size()), what)) stop = true;
+        for (std::size_t b = range.begin(); b != range.end() && !stop; ++b) {
+          if (state_.block_done[b].load(std::memory_order_relaxed)) continue;
+          for (std::size_t v = state_.blockBegin(b); v < state_.blockEnd(b); ++v)
+            work_on(v, &state_.next[v * state_.row]);
+          state_.block_done[b].store(1, std::memory_order_release);
+          if (!meter_.blockDone()) stop = true;
+        }
       },
       tbb::simple_partitioner());
-  if (stop) throw Interrupted("interrupted while baking a volume; volumes begin anew");
+  if (stop) meter_.interrupt();
 }
 
-void VolumeBake::lookOut(std::vector<float>& rows) const {
+void VolumeBake::lookOut() const {
+  const std::size_t width = state_.row;
   const std::vector<glm::vec3> directions = sampling::fibonacciSphere(options_.directions);
-  std::vector<float> basis(directions.size() * row_, 0.0f);
+  std::vector<float> basis(directions.size() * width, 0.0f);
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const sh::Sh y = sh::evaluate(options_.order, directions[d]);
-    for (std::size_t i = 0; i < coefficients_; ++i) basis[d * row_ + i] = y[int(i)];
+    for (std::size_t i = 0; i < coefficients_; ++i) basis[d * width + i] = y[int(i)];
   }
-  eachVoxel(double(directions.size()), "volume: light that arrives", [&](std::size_t v) {
+  eachVoxel([&](std::size_t v, float* row) {
     const std::uint32_t voxel = marcher_.filled()[v];
-    float* row = &rows[v * row_];
     for (std::size_t d = 0; d < directions.size(); ++d) {
       const float through = std::exp(-marcher_.opticalDepth(voxel, directions[d]));
       if (through < 1e-5f) continue;
@@ -166,65 +146,60 @@ void VolumeBake::lookOut(std::vector<float>& rows) const {
               {.origin = blockers_.scale * marcher_.position(voxel), .direction = directions[d]}))
         continue;
       const float weight = through / float(directions.size());
-      const float* y = &basis[d * row_];
-      for (std::size_t i = 0; i < row_; ++i) row[i] += weight * y[i];
+      const float* y = &basis[d * width];
+      for (std::size_t i = 0; i < width; ++i) row[i] += weight * y[i];
     }
   });
 }
 
-void VolumeBake::scatter(const std::vector<float>& from, std::vector<float>& to) const {
+void VolumeBake::scatter() const {
+  const std::size_t width = state_.row;
   const std::vector<glm::vec3> directions = sampling::fibonacciSphere(options_.scatter_directions);
-  eachVoxel(double(directions.size()), "volume: scattering", [&](std::size_t v) {
+  eachVoxel([&](std::size_t v, float* to) {
     thread_local std::vector<Gathered> gathered;
     gathered.clear();
     for (const glm::vec3& direction : directions) marcher_.gather(marcher_.filled()[v], direction, gathered);
     float sum[sh::kMaxOrder * sh::kMaxOrder + 4] = {};
     for (const Gathered& share : gathered) {
-      const float* row = &from[share.voxel * row_];
-      for (std::size_t i = 0; i < row_; ++i) sum[i] += share.weight * row[i];
+      const float* row = &state_.now[share.voxel * width];
+      for (std::size_t i = 0; i < width; ++i) sum[i] += share.weight * row[i];
     }
-    for (std::size_t i = 0; i < row_; ++i) to[v * row_ + i] = sum[i] / float(directions.size());
+    for (std::size_t i = 0; i < width; ++i) to[i] = sum[i] / float(directions.size());
   });
 }
 
-/// The sum of constant parts: what even light gives.
-double VolumeBake::constantOf(const std::vector<float>& rows) const {
-  double sum = 0.0;
-  for (std::size_t v = 0; v < marcher_.filled().size(); ++v) sum += double(rows[v * row_]);
-  return sum;
+void VolumeBake::spread(const glm::vec3& factor, std::size_t colors, std::vector<float>& values) const {
+  for (std::size_t v = 0; v < state_.filled; ++v)
+    for (std::size_t i = 0; i < coefficients_; ++i)
+      for (std::size_t c = 0; c < colors; ++c)
+        values[(marcher_.filled()[v] * coefficients_ + i) * colors + c] +=
+            factor[int(c)] * state_.now[v * state_.row + i];
 }
 
-Transfer VolumeBake::run(double* last_order) {
-  const std::vector<std::uint32_t>& filled = marcher_.filled();
-  Transfer transfer;
-  transfer.order = options_.order;
-  transfer.bounces = options_.scatterings - 1;
-  transfer.directions = options_.directions;
-  std::vector<float> now(filled.size() * row_, 0.0f), next(now.size());
-  lookOut(now);
-  const auto spread = [&](const std::vector<float>& rows, const glm::vec3& factor, std::size_t colors,
-                          std::vector<float>& values) {
-    for (std::size_t v = 0; v < filled.size(); ++v)
-      for (std::size_t i = 0; i < coefficients_; ++i)
-        for (std::size_t c = 0; c < colors; ++c)
-          values[(filled[v] * coefficients_ + i) * colors + c] += factor[int(c)] * rows[v * row_ + i];
-  };
-  transfer.direct.assign(volume_.voxels() * coefficients_, 0.0f);
-  spread(now, glm::vec3(1.0f), 1, transfer.direct);
-  double all = constantOf(now), last = all;
-  const double mean = double(even_.albedo.x + even_.albedo.y + even_.albedo.z) / 3.0;
-  if (transfer.bounces > 0) transfer.indirect.assign(3 * transfer.direct.size(), 0.0f);
+void VolumeBake::finishPass() {
+  state_.now.swap(state_.next);
   glm::vec3 factor(1.0f);
-  for (int b = 1; b <= transfer.bounces; ++b) {
-    scatter(now, next);
-    now.swap(next);
-    factor *= even_.albedo;
-    spread(now, factor, 3, transfer.indirect);
-    last = std::pow(mean, b) * constantOf(now);
-    all += last;
+  for (int b = 0; b < state_.pass; ++b) factor *= even_.albedo;
+  if (state_.pass == 0)
+    spread(factor, 1, state_.transfer.direct);
+  else
+    spread(factor, 3, state_.transfer.indirect);
+  double even = 0.0;
+  for (std::size_t v = 0; v < state_.filled; ++v) even += double(state_.now[v * state_.row]);
+  const double mean = double(even_.albedo.x + even_.albedo.y + even_.albedo.z) / 3.0;
+  state_.even_last = std::pow(mean, state_.pass) * even;
+  state_.even += state_.even_last;
+  state_.nextPass();
+}
+
+void VolumeBake::run() {
+  while (!state_.finished()) {
+    if (state_.pass == 0)
+      lookOut();
+    else
+      scatter();
+    finishPass();
   }
-  *last_order = all > 0.0 && transfer.bounces > 0 ? last / all : 0.0;
-  return transfer;
 }
 
 std::size_t memoryOf(const Volume& volume, std::size_t filled, const VolumeBakeOptions& options) {
@@ -267,25 +242,37 @@ Scene bakeVolumes(const Scene& scene, const VolumeBakeOptions& options, const Pr
   const VolumeEstimate estimate = estimateVolumes(scene, options);
   refuseWhatIsTooLarge(estimate, options);
   const auto start = std::chrono::steady_clock::now();
-  Scene baked = scene;
   const PosedScene posed = pose(scene, options.time_s);
+  const std::vector<PlacedVolume> placed = VolumePlaces(scene).at(options.time_s);
+  std::vector<const Volume*> volumes;
+  std::vector<std::size_t> filled;
+  for (const PlacedVolume& p : placed) {
+    volumes.push_back(p.volume.get());
+    filled.push_back(filledVoxels(*p.volume));
+  }
+  std::vector<VolumeState> states(placed.size());
   VolumeReport done;
-  const double each =
-      double(options.directions) + double(options.scatterings - 1) * double(options.scatter_directions);
-  VolumeMeter meter(progress, double(estimate.filled) * each);
+  VolumeMeter meter(scene, volumes, filled, options, progress, states);
+  done.resumed = meter.resumed();
   withThreads(options.threads, [&] {
-    for (const PlacedVolume& placed : VolumePlaces(scene).at(options.time_s)) {
-      const std::size_t node = std::size_t(placed.node);
-      const Blockers blockers = blockersOf(scene, posed, placed.world_from_node, placeOf(scene, node), {});
-      auto volume = std::make_shared<Volume>(*placed.volume);
-      double last = 0.0;
-      volume->transfer =
-          std::make_shared<Transfer>(VolumeBake(*placed.volume, blockers, options, meter).run(&last));
-      baked.nodes[node].volume = std::move(volume);
-      ++done.volumes;
-      done.last_order = std::max(done.last_order, last);
+    for (std::size_t v = 0; v < placed.size(); ++v) {
+      if (states[v].finished()) continue;
+      const std::string place = placeOf(scene, std::size_t(placed[v].node));
+      const Blockers blockers = blockersOf(scene, posed, placed[v].world_from_node, place, {});
+      VolumeBake(*volumes[v], blockers, options, states[v], meter).run();
     }
   });
+  meter.end();
+  Scene baked = scene;
+  for (std::size_t v = 0; v < placed.size(); ++v) {
+    VolumeState& state = states[v];
+    auto volume = std::make_shared<Volume>(*volumes[v]);
+    volume->transfer = std::make_shared<Transfer>(std::move(state.transfer));
+    baked.nodes[std::size_t(placed[v].node)].volume = std::move(volume);
+    ++done.volumes;
+    if (state.passes > 1 && state.even > 0.0)
+      done.last_order = std::max(done.last_order, state.even_last / state.even);
+  }
   done.filled = estimate.filled;
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (report) *report = done;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "math/sampling.h"
 #include "techniques/prt/prt_bake_test_scenes.h"
@@ -221,6 +222,45 @@ TEST(PrtVolume, SameBitsForAnyNumberOfThreads) {
   const Transfer one = bits(1), three = bits(3);
   EXPECT_EQ(one.direct, three.direct);
   EXPECT_EQ(one.indirect, three.indirect);
+}
+
+TEST(PrtVolume, SameBitsAfterInterruptions) {
+  Scene scene = sceneOf(blob(10, 5.0f, 0.9f));
+  scene.nodes.push_back(scene.nodes[0]);
+  scene.nodes[1].volume = std::make_shared<Volume>(blob(8, 2.0f, 0.7f));
+  scene.roots.push_back(1);
+  VolumeBakeOptions options = {.order = 3, .scatterings = 4, .directions = 64, .scatter_directions = 32};
+  const Scene whole = bakeVolumes(scene, options);
+  options.checkpoint = std::filesystem::path(testing::TempDir()) / "volumes.ckp";
+  std::filesystem::remove(options.checkpoint);
+  for (int interruptions = 0;; ++interruptions) {
+    ASSERT_LT(interruptions, 1000);
+    int asked = 0;
+    Progress progress;  // some blocks at a time
+    progress.should_stop = [&] { return ++asked > 7; };
+    try {
+      VolumeReport report;
+      const Scene pieces = bakeVolumes(scene, options, progress, &report);
+      EXPECT_GT(interruptions, 3);
+      EXPECT_TRUE(report.resumed);
+      for (int node : {0, 1}) {
+        const Transfer &one = *whole.nodes[std::size_t(node)].volume->transfer,
+                       &other = *pieces.nodes[std::size_t(node)].volume->transfer;
+        EXPECT_EQ(one.direct, other.direct);
+        EXPECT_EQ(one.indirect, other.indirect);
+      }
+      break;
+    } catch (const Interrupted&) {
+      EXPECT_TRUE(std::filesystem::exists(options.checkpoint));
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
+  options.keep_checkpoint = true;
+  bakeVolumes(scene, options);
+  options.scatterings = 5;
+  EXPECT_THROW(bakeVolumes(scene, options), Error);  // that of other options
+  EXPECT_TRUE(std::filesystem::exists(options.checkpoint));
+  std::filesystem::remove(options.checkpoint);
 }
 
 TEST(PrtVolume, ColoursScatterByTheirOwnAlbedo) {
