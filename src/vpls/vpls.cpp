@@ -28,7 +28,7 @@ void recordCells(const Step& step, const MapPlace& place) {
   bindMaps(step.graph.compute("vpls.cells", vpls_cells_spv), step.maps)
       .write("rows", step.drawn)
       .push(place)
-      .dispatchOver(place.grid, place.grid);
+      .dispatch(std::uint32_t(place.grid), std::uint32_t(place.grid));
 }
 
 /// Running sums of flux along the rows of a map and down its last column, then lights at a warped sequence.
@@ -83,8 +83,9 @@ Vpls recordVpls(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const 
   result.maps = recordReflectiveMaps(graph, inputs, std::max(options.map_size, finest));
   if (result.maps.maps.empty()) return result;
   const std::vector<int> grids = gridsOf(result.maps.maps, options.count);
+  const std::uint32_t rows_of_cell = options.sampling == Sampling::kGrid ? 2 : 1;
   std::uint32_t count = 0;
-  for (const int grid : grids) count += std::uint32_t(grid) * std::uint32_t(grid);
+  for (const int grid : grids) count += rows_of_cell * std::uint32_t(grid) * std::uint32_t(grid);
   result.capacity = (count + kVplChunk - 1) / kVplChunk * kVplChunk;
   const gpu::BufferDesc desc{.bytes = result.capacity * sizeof(VplRow)};
   const auto drawn = graph.create("vpls.drawn", desc);
@@ -95,7 +96,7 @@ Vpls recordVpls(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const 
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const ReflectiveMap& map = result.maps.maps[i];
     const MapPlace place{{map.x, map.y}, result.maps.size, grids[i], first, std::uint32_t(i)};
-    first += std::uint32_t(grids[i]) * std::uint32_t(grids[i]);
+    first += rows_of_cell * std::uint32_t(grids[i]) * std::uint32_t(grids[i]);
     if (options.sampling == Sampling::kGrid)
       recordCells(step, place);
     else

@@ -1,9 +1,10 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// A virtual light a cell of a grid over the map (MS-2): all of the cell's flux, at the mean, weighted by flux, of where it
-// falls. So lights glide as lamps and things move; none jumps from texel to texel. Where a cell holds more than one surface, the
-// mean is that of the one with the most flux: between two surfaces a light would stand in the air, or behind a corner.
+// Virtual lights of the cells of a grid over the map (MS-2). Each has flux at the mean, weighted by flux, of where it falls. So lights
+// glide as lamps and things move; none jumps from texel to texel. Between two surfaces a light would stand in the air, or behind a
+// corner: where a cell holds more than one, the one with the most flux has a light, and the rest another, on the next. So light
+// does not leap when a lamp's cell passes over an edge.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,16 +12,20 @@
 
 const float kPi = 3.14159265;
 
-layout(local_size_x = 8, local_size_y = 1) in;
+layout(local_size_x = 32) in;  // a cell
 layout(set = 0, binding = 0) uniform sampler2D position_map;
 layout(set = 0, binding = 1) uniform sampler2D normal_map;
 layout(set = 0, binding = 2) uniform sampler2D flux_map;
 layout(scalar, set = 0, binding = 3) writeonly buffer Rows { VplRow at[]; } rows;
 layout(scalar, push_constant) uniform Push { MapPlace place; } push;
 
+const int kTries = 5;
 /// Places in a cell whose surfaces are tried, in sixths of its side.
-const ivec2 kTried[5] = ivec2[5](ivec2(3, 3), ivec2(1, 1), ivec2(5, 1), ivec2(1, 5), ivec2(5, 5));
+const ivec2 kTried[kTries] = ivec2[kTries](ivec2(3, 3), ivec2(1, 1), ivec2(5, 1), ivec2(1, 5), ivec2(5, 5));
 const float kSameNormal = 0.8, kSamePlane = 0.25;  // least cosine; rise over run
+const int kMostTexels = 1024;  // a side of a cell; of wider ones every second, third ... is looked at
+const float kLeastRest = 0.01;  // of a cell's flux that has a light of its own
+const uint kLanes = 32u;
 
 struct Point {
   vec3 position, normal;
@@ -36,52 +41,112 @@ bool agree(Point a, Point b) {
 
 float fluxAt(ivec2 at) { return dot(texelFetch(flux_map, at, 0).rgb, vec3(1.0)); }
 
-void main() {
-  MapPlace place = push.place;
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(cell, ivec2(place.grid)))) return;
-  ivec2 from = cell * place.size / place.grid, to = (cell + 1) * place.size / place.grid;
-  Point tried[5];
-  float shares[5] = float[5](0.0, 0.0, 0.0, 0.0, 0.0);
-  for (int i = 0; i < 5; ++i) tried[i] = pointAt(place.corner + from + (to - from) * kTried[i] / 6);
-  for (int y = from.y; y < to.y; ++y) {
-    for (int x = from.x; x < to.x; ++x) {
-      ivec2 at = place.corner + ivec2(x, y);
-      float w = fluxAt(at);
-      Point point = pointAt(at);
-      for (int i = 0; i < 5; ++i) shares[i] += agree(tried[i], point) ? w : 0.0;
+/// Flux on a surface, and where it falls.
+struct Sum {
+  vec3 position, normal;  // weighted by flux
+  float weight;
+  vec3 flux, all;  // of it; of the whole cell
+  float area;      // that is lit, of the whole cell
+};
+const Sum kNone = Sum(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0);
+
+struct Cell {
+  ivec2 corner, size;
+  int step;
+};
+
+shared float shares[kLanes][kTries];
+shared Sum sums[kLanes];
+
+/// The tried place with the most flux about it, without what is of surface `first` if it is there; -1: none has any.
+int choose(Cell cell, Point tried[kTries], bool has_first, Point first) {
+  float own[kTries] = float[kTries](0.0, 0.0, 0.0, 0.0, 0.0);
+  for (int i = int(gl_LocalInvocationID.x); i < cell.size.x * cell.size.y; i += int(kLanes)) {
+    ivec2 at = cell.corner + cell.step * ivec2(i % cell.size.x, i / cell.size.x);
+    Point point = pointAt(at);
+    float w = has_first && agree(first, point) ? 0.0 : fluxAt(at);
+    for (int k = 0; k < kTries; ++k) own[k] += agree(tried[k], point) ? w : 0.0;
+  }
+  barrier();
+  for (int k = 0; k < kTries; ++k) shares[gl_LocalInvocationID.x][k] = own[k];
+  barrier();
+  float most = 0.0;
+  int best = -1;
+  for (int k = 0; k < kTries; ++k) {
+    float share = 0.0;
+    for (uint lane = 0u; lane < kLanes; ++lane) share += shares[lane][k];
+    if (share > 1.001 * most) {
+      most = share;
+      best = k;
     }
   }
-  Point chosen = tried[0];
-  float share = shares[0];
-  for (int i = 1; i < 5; ++i) {
-    if (shares[i] > 1.001 * share) {
-      chosen = tried[i];
-      share = shares[i];
-    }
+  return best;
+}
+
+/// What falls on surface `chosen` and not on `first`; on any where there is none chosen.
+Sum sumOn(Cell cell, bool has_chosen, Point chosen, bool has_first, Point first) {
+  Sum own = kNone;
+  float texels = float(cell.step * cell.step);
+  for (int i = int(gl_LocalInvocationID.x); i < cell.size.x * cell.size.y; i += int(kLanes)) {
+    ivec2 at = cell.corner + cell.step * ivec2(i % cell.size.x, i / cell.size.x);
+    Point point = pointAt(at);
+    vec3 flux = texels * texelFetch(flux_map, at, 0).rgb;
+    bool takes = (!has_chosen || agree(chosen, point)) && !(has_first && agree(first, point));
+    float w = takes ? dot(flux, vec3(1.0)) : 0.0;
+    own.position += w * point.position;
+    own.normal += w * point.normal;
+    own.weight += w;
+    own.flux += takes ? flux : vec3(0.0);
+    own.all += flux;
+    own.area += any(greaterThan(flux, vec3(0.0))) ? texels * texelFetch(position_map, at, 0).w : 0.0;
   }
-  vec3 flux = vec3(0.0), position = vec3(0.0), normal = vec3(0.0);
-  float area = 0.0, weight = 0.0;
-  for (int y = from.y; y < to.y; ++y) {
-    for (int x = from.x; x < to.x; ++x) {
-      ivec2 at = place.corner + ivec2(x, y);
-      vec3 f = texelFetch(flux_map, at, 0).rgb;
-      Point point = pointAt(at);
-      float all = f.r + f.g + f.b, w = share <= 0.0 || agree(chosen, point) ? all : 0.0;
-      flux += f;
-      weight += w;
-      position += w * point.position;
-      normal += w * point.normal;
-      area += all > 0.0 ? texelFetch(position_map, at, 0).w : 0.0;
-    }
+  barrier();
+  sums[gl_LocalInvocationID.x] = own;
+  barrier();
+  Sum sum = kNone;
+  for (uint lane = 0u; lane < kLanes; ++lane) {
+    sum.position += sums[lane].position;
+    sum.normal += sums[lane].normal;
+    sum.weight += sums[lane].weight;
+    sum.flux += sums[lane].flux;
+    sum.all += sums[lane].all;
+    sum.area += sums[lane].area;
   }
-  float len = length(normal);
-  bool sends = weight > 0.0 && len > 1e-6 * weight;
+  return sum;
+}
+
+VplRow rowOf(Sum sum, vec3 flux) {
+  float len = length(sum.normal);
+  bool sends = sum.weight > 0.0 && len > 1e-6 * sum.weight;
   VplRow row;
-  row.position = sends ? position / weight : vec3(0.0);
-  row.bound = sends ? area / kPi : 0.0;
-  row.normal = sends ? normal / len : vec3(0.0);
+  row.position = sends ? sum.position / sum.weight : vec3(0.0);
+  row.bound = sends ? sum.area / kPi : 0.0;
+  row.normal = sends ? sum.normal / len : vec3(0.0);
   row.intensity = sends ? flux / kPi : vec3(0.0);
   row.unused = row.unused_too = 0.0;
-  rows.at[place.first + uint(cell.y * place.grid + cell.x)] = row;
+  return row;
+}
+
+void main() {
+  MapPlace place = push.place;
+  ivec2 at = ivec2(gl_WorkGroupID.xy), from = at * place.size / place.grid, to = (at + 1) * place.size / place.grid;
+  int step = (max(to.x - from.x, to.y - from.y) + kMostTexels - 1) / kMostTexels;
+  Cell cell = Cell(place.corner + from, (to - from + step - 1) / step, step);
+  Point tried[kTries];
+  for (int k = 0; k < kTries; ++k) tried[k] = pointAt(place.corner + from + (to - from) * kTried[k] / 6);
+
+  int best = choose(cell, tried, false, tried[0]);
+  Point first = tried[max(best, 0)];
+  Sum sum = sumOn(cell, best >= 0, first, false, first);
+  vec3 flux = sum.all, left = max(sum.all - sum.flux, vec3(0.0));
+  uint index = uint(at.y * place.grid + at.x);
+  Sum rest = kNone;
+  if (dot(left, vec3(1.0)) > kLeastRest * dot(sum.all, vec3(1.0))) {
+    int next = choose(cell, tried, true, first);
+    if (next >= 0) rest = sumOn(cell, true, tried[next], true, first);
+    if (rest.weight > 0.0) flux -= left;
+  }
+  if (gl_LocalInvocationID.x != 0u) return;
+  rows.at[place.first + index] = rowOf(sum, flux);
+  rows.at[place.first + uint(place.grid * place.grid) + index] = rowOf(rest, left);
 }

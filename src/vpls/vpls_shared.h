@@ -24,8 +24,9 @@ GLOAM_SHARED_CONST int kVplChunk = 64;
 struct MapPlace {
   ivec2 corner;  // texels
   int size;
-  int grid;    // cells a side
-  uint first;  // of its grid * grid virtual lights
+  int grid;  // cells a side
+  uint
+      first;  // of its grid * grid virtual lights; those of a grid have as many after them, for what cells hold besides
   uint map;
 };
 GLOAM_SHARED_SIZE(MapPlace, 24)

@@ -180,8 +180,9 @@ void gatherAs(std::span<const SplatLight> lights, HostPoints& points) {
           hn::Set(d, light.normal.x), x,
           hn::NegMulAdd(hn::Set(d, light.normal.y), y, hn::Neg(hn::Mul(hn::Set(d, light.normal.z), z))));
       // Lights stand by side and place, so that many in a row are behind all of these places.
+      const V spread = hn::Set(d, light.spread), behind = kMerged ? hn::Neg(spread) : zero;
+      if (hn::AllFalse(d, hn::And(hn::Gt(here, behind), hn::Gt(there, behind)))) continue;
       const auto lit = hn::And(hn::Gt(here, zero), hn::Gt(there, zero));
-      if (hn::AllFalse(d, lit)) continue;
       const V squared = hn::Max(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))), least);
       const V inverse = inverseOf(squared);
       V bounded = inverse;
@@ -194,9 +195,14 @@ void gatherAs(std::span<const SplatLight> lights, HostPoints& points) {
       if constexpr (kMeasures || kMerged) {
         V power = hn::Mul(hn::Set(d, light.power), weight);
         if constexpr (kMerged) {
-          const V spread = hn::Min(hn::Mul(hn::Set(d, light.spread), inverse), hn::Set(d, 1.0f));
-          const V changed = hn::Mul(power, spread);
-          error = hn::Add(error, changed);
+          const V part = hn::Min(hn::Mul(hn::Mul(spread, spread), inverse), hn::Set(d, 1.0f));
+          // Where their mean is behind the receiver, or it behind theirs, some of them may not be.
+          const V apart = hn::MulAdd(hn::Max(here, zero), hn::Max(hn::Add(there, spread), zero),
+                                     hn::Mul(hn::Max(there, zero), hn::Max(hn::Add(here, spread), zero)));
+          const V missed = hn::Mul(hn::Mul(hn::Set(d, 0.5f), apart), hn::Mul(inverse, bounded));
+          const V changed = hn::Mul(power, part);
+          error = hn::Add(
+              error, hn::IfThenElse(lit, changed, hn::Mul(hn::Mul(hn::Set(d, light.power), missed), part)));
           power = hn::MulAdd(hn::Set(d, 6.0f), changed, power);
         }
         if constexpr (kMeasures) change = hn::MulAdd(power, inverse, change);

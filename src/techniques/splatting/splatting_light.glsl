@@ -32,8 +32,9 @@ void addLight(inout Gathered sum, SplatLight light, Receivers at, vec4 visible, 
   vec4 x = light.position.x - at.x, y = light.position.y - at.y, z = light.position.z - at.z;
   vec4 squared = max(x * x + y * y + z * z, 1e-12);
   vec4 inverse = 1.0 / squared;
-  vec4 cosines = max(at.normal_x * x + at.normal_y * y + at.normal_z * z, 0.0) *
-                 max(-(light.normal.x * x + light.normal.y * y + light.normal.z * z), 0.0);
+  vec4 here = at.normal_x * x + at.normal_y * y + at.normal_z * z;
+  vec4 there = -(light.normal.x * x + light.normal.y * y + light.normal.z * z);
+  vec4 cosines = max(here, 0.0) * max(there, 0.0);
   vec4 bounded = inverse;
   if (bound_kind == 1) bounded = min(inverse, 1.0 / max(light.bound, 1e-20));
   if (bound_kind == 2) bounded = 1.0 / (squared + light.bound);
@@ -43,8 +44,11 @@ void addLight(inout Gathered sum, SplatLight light, Receivers at, vec4 visible, 
   sum.blue += light.intensity.b * weight;
   vec4 power = light.power * weight;
   if (merged) {
-    vec4 spread = min(light.spread * inverse, 1.0);
-    sum.error += power * spread;
+    vec4 spread = min(light.spread * light.spread * inverse, 1.0);
+    // Where their mean is behind the receiver, or it behind theirs, some of them may not be.
+    vec4 missed = 0.5 * (max(here, 0.0) * max(there + light.spread, 0.0) + max(there, 0.0) * max(here + light.spread, 0.0));
+    missed = mix(missed, vec4(0.0), greaterThan(cosines, vec4(0.0)));
+    sum.error += (power + light.power * missed * inverse * bounded * visible) * spread;
     power += 6.0 * power * spread;  // some of them are nearer than their mean
   }
   if (measures) sum.change += power * inverse;

@@ -33,7 +33,8 @@ void main() {
     if (row >= push.from_count) break;
     SplatLight light = lights.at[push.from + row];
     vec3 off = light.position - sum.position;
-    sum.spread += light.power * scale * (dot(off, off) + light.spread);
+    sum.spread += light.power * scale * (dot(off, off) + light.spread * light.spread);
   }
+  sum.spread = sqrt(sum.spread);
   lights.at[push.to + index] = sum;
 }

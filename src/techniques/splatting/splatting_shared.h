@@ -15,7 +15,7 @@ struct SplatLight {
   vec3 normal;  // mean: shorter than 1 where theirs differ, which makes it exact for whoever sees them all
   float power;  // sum of the intensity's colours
   vec3 intensity;
-  float spread;  // squared metres: variance of their positions
+  float spread;  // metres: standard deviation of their positions
 };
 GLOAM_SHARED_SIZE(SplatLight, 48)
 
