@@ -12,6 +12,13 @@ namespace gloam::vpls {
 using visibility::SightPoint;
 using visibility::SightSet;
 
+float discCosine(float height, float squared_distance, float bound) {
+  const float squared_height = height * height;
+  const float beside = std::max(squared_distance - squared_height - kDiscReach * bound, 0.0f);
+  return height / std::sqrt(std::max(squared_height + beside + kDiscSoftness * bound,
+                                     punctual::kLeastSquaredDistance));
+}
+
 glm::vec3 walkIrradiance(const WalkVpl& vpl, const glm::vec3& position, glm::vec3& to_light) {
   to_light = vpl.end.position;
   if (vpl.end.kind == visibility::kSightDirectional) return vpl.light;
@@ -23,7 +30,9 @@ glm::vec3 walkIrradiance(const WalkVpl& vpl, const glm::vec3& position, glm::vec
   if (vpl.end.kind == visibility::kSightLamp)
     return vpl.light * (punctual::rangeFactor(distance, vpl.range) *
                         punctual::coneFactor(cosine, vpl.cos_inner, vpl.cos_outer) / squared);
-  cosine = vpl.end.kind == visibility::kSightBothSides ? std::abs(cosine) : std::max(cosine, 0.0f);
+  cosine = vpl.end.kind == visibility::kSightBothSides
+               ? std::abs(cosine)
+               : discCosine(std::max(cosine, 0.0f) * distance, squared, vpl.bound);
   return vpl.light * (cosine / std::max(squared, vpl.bound));
 }
 

@@ -15,8 +15,9 @@ struct WalkOptions {
   int sets = 16;  ///< n * m
   int direct =
       16;  ///< rows a set for surfaces that glow and the environment, of both together; lamps come on top
-  int indirect = 32;  ///< rows a set for surfaces that sources light; each further bounce has half as many as the one before
-  int bounces = 1;    ///< surfaces that light meets before it reaches the receiver; 0: direct light alone
+  int indirect =
+      32;  ///< rows a set for surfaces that sources light; each further bounce has half as many as the one before
+  int bounces = 1;  ///< surfaces that light meets before it reaches the receiver; 0: direct light alone
   /// Rows a set for punctual lamps themselves: all of them where there are no more, else a choice by power. They light surfaces
   /// either way.
   int most_lamps = 16;
@@ -38,6 +39,8 @@ struct Walks {
   std::uint32_t words() const { return (stride + 31) / 32; }  ///< for visibility::Question
 };
 
+/// The function of walks.glsl: the cosine at a lit surface's light, `height` metres above its plane.
+float discCosine(float height, float squared_distance, float bound);
 /// The function of walks.glsl: irradiance that a light throws, unshadowed, on a plane that faces it, and the way to it.
 glm::vec3 walkIrradiance(const WalkVpl& vpl, const glm::vec3& position, glm::vec3& to_light);
 

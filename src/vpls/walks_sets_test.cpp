@@ -174,6 +174,32 @@ TEST(WalkSets, ShadersEvaluateThemAlike) {
   }
 }
 
+// All of it does from afar; nearer than the disc is wide, more of it than under a bound alone, and hardly more than there is.
+TEST(WalkSets, LightOfALitSurfaceReachesWhatFacesIt) {
+  WalkVpl row{};
+  row.end.kind = visibility::kSightSurface;
+  row.end.normal = glm::vec3(0.0f, 0.0f, -1.0f);
+  row.light = glm::vec3(1.0f / kPi);  // flux 1
+  row.bound = 0.04f;
+  const float radius = std::sqrt(row.bound);
+  for (const auto& [height, least, most] : {std::array{0.25f, 0.29f, 0.32f}, std::array{0.5f, 0.7f, 0.73f},
+                                            std::array{1.0f, 1.0f, 1.09f}, std::array{4.0f, 1.0f, 1.01f}}) {
+    row.end.position = glm::vec3(0.0f, 0.0f, height * radius);
+    double flux = 0.0;
+    constexpr int kRings = 4000;
+    for (int i = 0; i < kRings; ++i) {  // of equal angles
+      const float angle = 0.5f * kPi * (float(i) + 0.5f) / float(kRings),
+                  x = height * radius * std::tan(angle),
+                  wide = height * radius * 0.5f * kPi / float(kRings) / (std::cos(angle) * std::cos(angle));
+      glm::vec3 way;
+      const glm::vec3 light = walkIrradiance(row, glm::vec3(x, 0.0f, 0.0f), way);
+      flux += double(light.x * way.z * 2.0f * kPi * x * wide);
+    }
+    EXPECT_GT(flux, least) << height;
+    EXPECT_LT(flux, most) << height;
+  }
+}
+
 // A corner under a small lamp, and far away, out of sight, thirty brighter ones: rows go to the corner, and its light stays true.
 TEST(WalkSets, CandidatesAreChosenWhereTheCameraLooks) {
   SceneBuilder builder("corner");

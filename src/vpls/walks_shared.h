@@ -8,6 +8,11 @@ GLOAM_SHARED_BEGIN(vpls)
 using visibility::SightEnd;
 #endif
 
+/// A light of a lit surface shines as from a disc of half its bound, square metres over pi, where it is near to what it lights: points
+/// beside it, and low over its plane, get what a bound alone takes from them (RF-9). Lower than a quarter of the disc's radius light fades.
+GLOAM_SHARED_CONST float kDiscReach = 0.5f;
+GLOAM_SHARED_CONST float kDiscSoftness = 0.0625f;
+
 /// A light of a set (RF-1). What end.kind says, and what `light` is then:
 ///   kSightLamp         a point or spot light; candela. Axis (the way it shines) in end.normal
 ///   kSightDirectional  a direction of the environment, or a directional lamp; irradiance on a plane that faces it

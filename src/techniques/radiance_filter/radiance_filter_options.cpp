@@ -45,7 +45,7 @@ const std::vector<Option>& options() {
        .maximum = 16,
        .help = "surfaces that light meets before it reaches the one that is seen"},
       {.name = "bound",
-       .default_value = 8.0f,
+       .default_value = 12.0f,
        .minimum = 0.0,
        .maximum = 1e6,
        .help = "least squared distance to a virtual light of a lit surface, in parts of the area that it "

@@ -275,8 +275,10 @@ TEST(RadianceFilterTwin, FieldAndShadingAreTheirEquations) {
         const glm::vec3 between = row.end.position - point.position;
         const float squared = glm::dot(between, between);
         way = between / std::sqrt(squared);
-        light *= std::max(0.0f, -glm::dot(way, row.end.normal)) /
-                 std::max(squared, settings.number("bound") * row.bound);
+        const float cosine = std::max(0.0f, -glm::dot(way, row.end.normal)),
+                    bound = settings.number("bound") * row.bound;
+        ASSERT_EQ(row.end.kind, visibility::kSightSurface);
+        light *= vpls::discCosine(cosine * std::sqrt(squared), squared, bound) / std::max(squared, bound);
       }
       const sh::Sh basis = sh::evaluate(3, way);
       for (int i = 0; i < 9; ++i) sum[i] += light * basis[i];
