@@ -23,7 +23,9 @@ const int kTries = 5;
 /// Places in a cell whose surfaces are tried, in sixths of its side.
 const ivec2 kTried[kTries] = ivec2[kTries](ivec2(3, 3), ivec2(1, 1), ivec2(5, 1), ivec2(1, 5), ivec2(5, 5));
 const float kSameNormal = 0.8, kSamePlane = 0.25;  // least cosine; rise over run
-const int kMostTexels = 1024;  // a side of a cell; of wider ones every second, third ... is looked at
+/// Texels a side of a cell; of wider ones every second, third ... is looked at. Some drivers end a shader's loops at 65,535 turns in
+/// all: four loops over a cell are 32,768.
+const int kMostTexels = 512;
 const float kLeastRest = 0.01;  // of a cell's flux that has a light of its own
 const uint kLanes = 32u;
 

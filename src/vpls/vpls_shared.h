@@ -25,8 +25,7 @@ struct MapPlace {
   ivec2 corner;  // texels
   int size;
   int grid;  // cells a side
-  uint
-      first;  // of its grid * grid virtual lights; those of a grid have as many after them, for what cells hold besides
+  uint first;  // of its grid * grid virtual lights; by kGrid as many follow, for what cells hold besides
   uint map;
 };
 GLOAM_SHARED_SIZE(MapPlace, 24)
