@@ -214,7 +214,10 @@ constexpr Row kRadianceFilter[] = {
      "gloam render builtin:shadow --env sky:mild --technique radiance_filter --radiance_filter.candidates 4",
      "vpls: CandidatesAreChosenWhereTheCameraLooks, LightFromAfarComesDownWhereTheCameraLooks"},
     {"RF-8", "Beyond: reuse over time without ghosts"},
-    {"RF-9", "Beyond: the energy that a distance bound takes is given back"},
+    {"RF-9", "Beyond: the energy that a distance bound takes is given back", kPartly,
+     "what is nearer to a lit surface than half of its disc; about half comes back",
+     "gloam render builtin:cornell --env none --technique radiance_filter --show indirect",
+     "vpls: LightOfALitSurfaceReachesWhatFacesIt"},
 };
 
 constexpr Row kSplatting[] = {

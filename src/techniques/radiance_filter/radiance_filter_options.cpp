@@ -35,7 +35,8 @@ const std::vector<Option>& options() {
        .default_value = 1,
        .minimum = 1,
        .maximum = 64,
-       .help = "times as many are made, and those kept that add most to what the camera sees"},
+       .help = "times as many are made, and those kept that add most to what the camera sees; "
+               "where all is seen, light is a little less even"},
       {.name = "focus",
        .default_value = true,
        .help = "in a wide scene, half of the virtual lights that sky and sun make stand about what is seen"},
@@ -49,7 +50,7 @@ const std::vector<Option>& options() {
        .minimum = 0.0,
        .maximum = 1e6,
        .help = "least squared distance to a virtual light of a lit surface, in parts of the area that it "
-               "stands for, of all sets together, over pi"},
+               "stands for, of all sets together, over pi; it shines as a disc of half that size"},
       {.name = "mode",
        .default_value = std::string("radiance"),
        .choices = {"radiance", "irradiance", "irradiance_normals", "brute", "brute_exact"},
@@ -94,7 +95,7 @@ const std::vector<Option>& options() {
       {.name = "apart",
        .default_value = true,
        .help = "direct and indirect light are kept apart, at twice the filter's cost; off: all is the direct "
-               "layer"},
+               "layer, and beams, which expect lamps, are less sharp"},
       {.name = "visibility",
        .default_value = std::string("auto"),
        .choices = {"auto", "host", "device"},
