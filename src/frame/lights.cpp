@@ -14,6 +14,7 @@ namespace gloam::frame {
 namespace {
 
 constexpr float kWidestSpotRad = 1.05f;  ///< to each side; wider ones get a cube
+constexpr float kNearest_m = 1e-3f;      ///< of what throws shadows; nearer still in small scenes
 constexpr int kFilterMargin = 4;  ///< texels around what a map must show, for the filter (frame/shadow.glsl)
 
 float marginFactor(int map_size) {
@@ -109,7 +110,7 @@ std::vector<ShadowView> shadowViews(const PosedLight& posed, const FrameView& ca
                                     const glm::vec3& high, int map_size) {
   if (posed.light.type == Light::Type::kDirectional)
     return {directionalView(posed.direction, camera, low, high, map_size)};
-  const float near = 1e-4f * std::max(glm::length(high - low), 1e-3f);
+  const float near = std::min(1e-4f * std::max(glm::length(high - low), 1e-3f), kNearest_m);
   if (posed.light.type == Light::Type::kSpot && posed.light.outer_cone_rad < kWidestSpotRad)
     return {perspectiveView(posed.position, posed.direction,
                             std::tan(std::max(posed.light.outer_cone_rad, 1e-3f)), near, map_size)};

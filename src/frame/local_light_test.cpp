@@ -160,6 +160,21 @@ TEST(LocalLight, NothingLeaksOutOfAClosedBox) {
   EXPECT_EQ(*std::max_element(image.begin(), image.end()), 0.0f);
 }
 
+// What is near to a lamp throws its shadow however far the scene reaches.
+TEST(LocalLight, ThingsBesideALampShadeInScenesOfAnySize) {
+  for (const float reach : {10.0f, 1e4f, 1e6f}) {
+    SceneBuilder builder("wide");
+    const int white = builder.diffuse("white", glm::vec3(1.0f));
+    builder.place("ground", shapes::ground(8, 8, 4, 4), white);
+    builder.place("plate", shapes::box({-0.05f, 0.93f, -0.05f}, {0.05f, 0.95f, 0.05f}, 0.05f), white);
+    builder.place("afar", shapes::box({reach, 0, reach}, {reach + 2, 2, reach + 2}, 1.0f), white);
+    builder.light(lampOf(Light::Type::kPoint, glm::vec3(10.0f)), {0, 1, 0});
+    const std::vector<float> image = lampImage(builder.finish(), fromAbove(4));
+    EXPECT_EQ(pixelOf(image, kSize, kSize / 2 + 6, kSize / 2).x, 0.0f) << reach;
+    EXPECT_GT(pixelOf(image, kSize, kSize / 2 + 24, kSize / 2).x, 0.0f) << reach;
+  }
+}
+
 TEST(LocalLight, HolesOfAMaskLetLightThrough) {
   SceneBuilder builder("mask");
   const int mask = builder.diffuse("mask", glm::vec3(1.0f));
