@@ -126,6 +126,12 @@ int boundKind(const std::string& name) {
   return name == "none" ? 0 : (name == "area" ? 1 : 2);
 }
 
+/// Pictures that are made for `debug` alone: who asks for one by name has asked for it.
+bool isOfDebug(std::string_view show) {
+  return show.starts_with("splatting.least_") || show.starts_with("splatting.greatest_") ||
+         show == "splatting.light_0";
+}
+
 vpls::VplOptions vplOptions(const Settings& settings) {
   const std::string& sampling = settings.choice("sampling");
   return {.count = settings.integer("vpls"),
@@ -229,6 +235,12 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
         mode == "cutoff" ? "indirect light is not shadowed: mode cutoff asks for no rays"
                          : "indirect light is not shadowed: rays begin at subsplats, and the picture "
                            "is smaller than two of splatting.coarsest");
+  const int resolution = settings.integer("resolution"), coarsest = settings.integer("coarsest");
+  if (!all_pixels && resolution > 0 && resolution < coarsest)
+    inputs.warnings.push_back(
+        fmt::format("splatting.resolution {} is taken as splatting.coarsest, {}: no "
+                    "level is coarser",
+                    resolution, coarsest));
   gpu::ImageRef irradiance;
   if (mode == "cutoff") {
     irradiance = recordCutoff(graph, inputs, vpls, bound, settings.number("radius"));
@@ -255,7 +267,7 @@ frame::Lighting Splatting::record(gpu::FrameGraph& graph, const frame::FrameInpu
                                   : upsample == "paper"  ? Upsampling::kPaper
                                   : upsample == "naive"  ? Upsampling::kNaive
                                                          : Upsampling::kBlocks;
-    const bool debug = settings.flag("debug");
+    const bool debug = settings.flag("debug") || isOfDebug(inputs.show);
     const float detail = settings.number("detail");
     const LightSets lights = recordLightSets(graph, vpls);
     std::vector<Level> levels = recordRanges(graph, inputs, plan, settings.choice("normals") == "shading");
