@@ -9,8 +9,8 @@
 #include "frame/upsample.glsl"
 #include "frame/view.glsl"
 
-/// Fitness of pixels of a square that lie on one surface.
-const float kSameSurface = 0.8;
+/// Fitness of pixels of a square that lie on one surface; of those that, besides, get light of one normal: within 3 degrees.
+const float kSameSurface = 0.8, kSameNormal = 0.95;
 
 /// quad: in squares, counted from the first that `divisor` has (upsampling begins half a block before the picture).
 uint packQuad(ivec2 quad, uint mask) { return uint(quad.y) << 18 | uint(quad.x) << 5 | mask; }
@@ -20,7 +20,7 @@ ivec2 firstPixel(uint packed, uint divisor) {
 }
 ivec2 pixelOf(ivec2 first, uint which) { return first + ivec2(which & 1u, which >> 1); }
 
-/// Those of a square's pixels in `left` that lie on the surface of the first of them.
+/// Those of a square's pixels in `left` that lie on the surface of the first of them, with at least the fitness `same`.
 struct QuadSurface {
   uint mask;
   ivec2 leader;
@@ -28,7 +28,7 @@ struct QuadSurface {
   vec3 position, normal;  // means
   PixelPlane plane;       // the leader's
 };
-QuadSurface surfaceOf(ivec2 first, uint left) {
+QuadSurface surfaceOf(ivec2 first, uint left, float same) {
   QuadSurface s;
   s.leader = pixelOf(first, uint(findLSB(left)));
   float along = eyeDepth(frame_view.view, texelFetch(depth, s.leader, 0).x);
@@ -44,7 +44,7 @@ QuadSurface surfaceOf(ivec2 first, uint left) {
     vec3 n = shadingNormal(texelFetch(normals, pixel, 0).xy);
     float away = eyeDepth(frame_view.view, texelFetch(depth, pixel, 0).x);
     vec4 as_receiver = vec4(n, evenDepth(frame_view.view, away));
-    if (pixel != s.leader && receiverFitness(as_receiver, leading, s.plane, vec2(pixel - s.leader)) < kSameSurface)
+    if (pixel != s.leader && receiverFitness(as_receiver, leading, s.plane, vec2(pixel - s.leader)) < same)
       continue;
     Ray ray = pixelRay(frame_view.view, vec2(pixel) + 0.5);
     s.position += ray.origin + ray.direction * away;

@@ -60,7 +60,7 @@ void main() {
   ivec2 first = firstPixel(packed, push.divisor), last = textureSize(receiver_normal, 0) - 1;
   uint unknown = 0u;
   while (left != 0u) {
-    QuadSurface surface = surfaceOf(first, left);
+    QuadSurface surface = surfaceOf(first, left, kSameSurface);
     left &= ~surface.mask;
     vec2 leader_place = receiverPlace(surface.leader, push.divisor);
     vec2 place = leader_place + surface.middle / float(push.divisor);

@@ -36,7 +36,7 @@ void main() {
   bool crease = (packed & kQuadFlag) != 0u;
   ivec2 first = firstPixel(packed, push.divisor), last = textureSize(receiver_normal, 0) - 1;
   while (left != 0u) {
-    QuadSurface surface = surfaceOf(first, crease ? 1u << findLSB(left) : left);  // there each pixel differs
+    QuadSurface surface = surfaceOf(first, crease ? 1u << findLSB(left) : left, kSameNormal);  // there each pixel differs
     left &= ~surface.mask;
     vec2 leader_place = receiverPlace(surface.leader, push.divisor);
     vec2 place = leader_place + surface.middle / float(push.divisor);
