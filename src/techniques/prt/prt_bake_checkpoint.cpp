@@ -8,7 +8,7 @@
 namespace gloam::prt {
 namespace {
 
-constexpr CheckpointKind kBake{{'g', 'l', 'o', 'a', 'm', 'p', 'r', 't'}, 4, "a bake"};
+constexpr CheckpointKind kBake{{'g', 'l', 'o', 'a', 'm', 'p', 'r', 't'}, 5, "a bake"};
 
 // Calls visit(data, bytes) for all that a checkpoint holds, in its order: first what earlier passes finished, then the
 // done blocks of this pass.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "math/sampling.h"
 #include "techniques/prt/prt_bake_kernels.h"
@@ -57,6 +58,14 @@ BakePasses::BakePasses(const Scene& scene, const PosedScene& posed, const BakePo
         brdf::makeLobes(material.base_color, material.metallic, material.roughness, material.specular);
     if (glossy_ != nullptr) surface.glossy = glossy_->instances[surfaces_.size()] != 0;
     surface.mirrors = settings.caustics && greatestSpecular(scene, material) >= kShinySpecular;
+    glm::vec3 least(std::numeric_limits<float>::max()), most(-least);
+    const std::size_t first = points.first_triangle[surfaces_.size()];
+    for (std::size_t t = first; t < first + mesh.triangleCount() && t < points.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        least = glm::min(least, points.positions[points.triangles[t][k]]);
+        most = glm::max(most, points.positions[points.triangles[t][k]]);
+      }
+    diagonals_.push_back(glm::distance(least, most));
     surfaces_.push_back(surface);
   }
   if (settings.turned)

@@ -80,6 +80,7 @@ class BakePasses {
   std::size_t digOut(std::size_t point, RaySite& site, std::size_t first, std::uint16_t* blocked,
                      float* sums) const;
   void finishShadow(std::size_t point, const ShadowWork& work, std::size_t i, BakeState& state) const;
+  float nookReach(std::size_t point) const;
   bool findBetterPlace(std::size_t point, RaySite& site) const;
   struct BounceSums {
     double cosine = 0.0;       ///< of the directions with the normal
@@ -186,6 +187,7 @@ class BakePasses {
   };
   std::vector<Surface> surfaces_;  ///< [instance]
   std::vector<glm::vec3> probes_;  ///< directions of placeOf
+  std::vector<float> diagonals_;   ///< [instance], metres
 
   struct KeptHits {
     std::vector<GatheredHit> hits;

@@ -19,9 +19,11 @@ namespace {
 constexpr float kBuriedBySheets = 1.0f / 3.0f;
 constexpr float kBuriedByAll = 0.9f;
 // A point is cramped where nearly all that it sees is nearer than half the spacing of its mesh: under the rounded edge of
-// a box, say. Its darkness is real, but its mesh would spread it over whole cells.
+// a box, say. Its darkness is real, but its mesh would spread it over whole cells. A mesh that is finer than this share of
+// its own diagonal shows it where it is.
 constexpr float kCramped = 0.6f;
 constexpr float kCrampedReach = 0.5f;
+constexpr float kShowsNooks = 1.0f / 256.0f;
 
 // A face that lies upside down in its surface shares places with it, but no points: its own look into the body, and no
 // neighbour of theirs is open. Its back is what is seen. Such points get the mean of the known ones at their place that
@@ -100,11 +102,21 @@ Place BakePasses::placeOf(const glm::vec3& origin, const glm::vec3& normal, floa
   return near > kCramped * total ? Place::kCramped : Place::kOpen;
 }
 
+// How near a point must see things to be in a nook that its mesh cannot show.
+float BakePasses::nookReach(std::size_t point) const {
+  const float spacing = meshSpacing(points_, point);
+  const std::uint32_t triangle =
+      points_.onFace(point) ? points_.facePoint(point).triangle : points_.facesOf(point).front();
+  const auto next = std::ranges::upper_bound(points_.first_triangle, triangle);
+  const float diagonal = diagonals_[std::size_t(next - points_.first_triangle.begin()) - 1];
+  return spacing > kShowsNooks * diagonal ? kCrampedReach * spacing : 0.0f;
+}
+
 // Looks for an open place on the faces around a point that is not, the nearest first; where even the far ends of the faces
 // are hidden nothing nearer is tried. Returns whether the site was moved.
 bool BakePasses::findBetterPlace(std::size_t point, RaySite& site) const {
   const glm::vec3& normal = points_.normals[point];
-  const float reach = kCrampedReach * meshSpacing(points_, point);
+  const float reach = nookReach(point);
   site.place = placeOf(site.origin, normal, reach);
   if (site.place == Place::kOpen || points_.onFace(point)) return false;
   auto faces = points_.facesOf(point);

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "scene/threads.h"
+#include "techniques/prt/prt_tessellate_cut.h"
 #include "techniques/prt/prt_tessellate_error.h"
 #include "techniques/prt/prt_tessellate_split.h"
 
@@ -26,6 +27,8 @@ constexpr float kSpacing = 1.0f / 64.0f, kFinest = 1.0f / 1024.0f;
 constexpr float kFinestAtEdges = 1.0f / 256.0f, kLittleFall = 0.8f;
 constexpr int kFruitless = 4;
 constexpr int kMostPasses = 64;
+/// Of an edge, one after the other; and the pass after which none is cut: a triangle as large as the scene is below kSpacing then.
+constexpr int kMostCuts = 4, kLastCut = 12;
 
 void check(const TessellateOptions& options) {
   if (!(options.error >= 0.005f && options.error <= 1.0f))
@@ -60,7 +63,7 @@ void handOn(const std::vector<std::vector<std::uint32_t>>& parents, std::vector<
           (t > 0 && parents[i][t - 1] == parent) || (t + 1 < next.size() && parents[i][t + 1] == parent);
       next[t] = part ? TessellationError::kUnknown : errors[i][parent];
       lines[t] = lineages[i][parent];
-      if (part) lines[t].error = std::max(0.0f, errors[i][parent]);
+      if (part && errors[i][parent] != TessellationError::kUnknown) lines[t].error = errors[i][parent];
     }
     errors[i] = std::move(next);
     lineages[i] = std::move(lines);
@@ -90,6 +93,11 @@ class Tessellation {
       throw Error(scene_.name.empty() ? "tessellate" : scene_.name,
                   "the scene has no rigid triangles to split");
     begin();
+    const Scene whole = scene_;  // of the same shape, however it is split
+    const PosedScene posed = pose(whole, options_.time_s);
+    const trace::Tracer tracer(whole, posed, {.reproducible = true, .rigid_only = true}, {});
+    const SplitMesh::Crossing crossing = crossingsWith(tracer, whole, posed);
+    cut(crossing);
     for (report.passes = 0; report.passes <= kMostPasses; ++report.passes) {
       measureParts(measure, progress, report);
       if (report.passes == 0) {
@@ -102,7 +110,10 @@ class Tessellation {
       const std::size_t before = mesh_.triangleCount();
       handOn(mesh_.split(chosen, options_.max_vertices), errors_, lineages_);
       if (mesh_.triangleCount() == before) break;
-      posed_ = pose(scene_, options_.time_s);
+      if (report.passes < kLastCut)
+        cut(crossing);
+      else
+        posed_ = pose(scene_, options_.time_s);
     }
     report.vertices_after = mesh_.vertexCount();
     report.triangles_after = mesh_.triangleCount();
@@ -125,6 +136,18 @@ class Tessellation {
       errors_[i].assign(triangles, TessellationError::kUnknown);
       lineages_[i].resize(triangles);
     }
+  }
+
+  /// Edges that enter other bodies, at their surface, once they are short; not the shortest.
+  void cut(const SplitMesh::Crossing& crossing) {
+    for (int k = 0; k < kMostCuts; ++k) {
+      const std::size_t before = mesh_.triangleCount();
+      handOn(mesh_.cut(crossing, {double(kFinestAtEdges * diagonal_), double(kSpacing * diagonal_)},
+                       options_.max_vertices),
+             errors_, lineages_);
+      if (mesh_.triangleCount() == before) break;
+    }
+    posed_ = pose(scene_, options_.time_s);
   }
 
   void measureParts(const TessellationError& measure, const Progress& progress, TessellateReport& report) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/prt/prt_tessellate_split.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,27 +19,27 @@ std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
 }
 
 template <class Vector>
-void appendMean(std::vector<Vector>& values, std::uint32_t a, std::uint32_t b) {
-  if (!values.empty()) values.push_back(0.5f * (values[a] + values[b]));
+void appendMix(std::vector<Vector>& values, std::uint32_t a, std::uint32_t b, float share) {
+  if (!values.empty()) values.push_back((1.0f - share) * values[a] + share * values[b]);
 }
 
-glm::vec3 unitMean(const glm::vec3& a, const glm::vec3& b) {
-  const glm::vec3 sum = a + b;
+glm::vec3 unitMix(const glm::vec3& a, const glm::vec3& b, float share) {
+  const glm::vec3 sum = (1.0f - share) * a + share * b;
   const float length = glm::length(sum);
   return length > 1.0e-6f ? sum / length : a;
 }
 
-/// A vertex half-way between two; the mean is the same either way round.
-std::uint32_t appendMiddle(Mesh& mesh, std::uint32_t a, std::uint32_t b) {
+/// A vertex on the way from one to another.
+std::uint32_t appendBetween(Mesh& mesh, std::uint32_t a, std::uint32_t b, float share) {
   const std::uint32_t index = std::uint32_t(mesh.vertexCount());
-  appendMean(mesh.positions, a, b);
-  if (!mesh.normals.empty()) mesh.normals.push_back(unitMean(mesh.normals[a], mesh.normals[b]));
+  appendMix(mesh.positions, a, b, share);
+  if (!mesh.normals.empty()) mesh.normals.push_back(unitMix(mesh.normals[a], mesh.normals[b], share));
   if (!mesh.tangents.empty()) {
     const glm::vec4 t = mesh.tangents[a], u = mesh.tangents[b];
-    mesh.tangents.emplace_back(unitMean(glm::vec3(t), glm::vec3(u)), t.w);
+    mesh.tangents.emplace_back(unitMix(glm::vec3(t), glm::vec3(u), share), t.w);
   }
-  for (std::vector<glm::vec2>& uvs : mesh.uv_sets) appendMean(uvs, a, b);
-  appendMean(mesh.colors, a, b);
+  for (std::vector<glm::vec2>& uvs : mesh.uv_sets) appendMix(uvs, a, b, share);
+  appendMix(mesh.colors, a, b, share);
   // Joints of a mesh that stands without a skin move nothing.
   for (int k = 0; k < mesh.influences; ++k) {
     mesh.joints.push_back(mesh.joints[a * std::size_t(mesh.influences) + std::size_t(k)]);
@@ -48,12 +50,14 @@ std::uint32_t appendMiddle(Mesh& mesh, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-/// Edges of this moment, and which of them are split.
+/// Edges of this moment, and which of them are split. Ends are those of the key, the place of the lower number first.
 struct SplitMesh::Edges {
   std::unordered_map<std::uint64_t, std::uint32_t> index;  // by key
   std::vector<std::uint32_t> first_triangle;               // [edge + 1], into triangles
   std::vector<TriangleRef> triangles;
   std::vector<std::uint32_t> copies;  // vertices that splitting it makes
+  std::vector<std::uint64_t> keys;
+  std::vector<double> share;          // where on the way from its first end
   std::vector<std::uint32_t> middle;  // place; kWhole: not split
   static constexpr std::uint32_t kWhole = ~0u;
 };
@@ -117,10 +121,13 @@ double SplitMesh::area(const TriangleRef& triangle) const {
   return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
 }
 
+// Always from the same end, so that all meshes get the same bits.
 std::uint32_t SplitMesh::middle(std::size_t instance, std::uint32_t a, std::uint32_t b, const Edges& edges) {
   const std::uint64_t key = edgeKey(place_[instance][a], place_[instance][b]);
-  place_[instance].push_back(edges.middle[edges.index.at(key)]);
-  return appendMiddle(meshOf(instance), a, b);
+  if (place_[instance][a] > place_[instance][b]) std::swap(a, b);
+  const std::uint32_t edge = edges.index.at(key);
+  place_[instance].push_back(edges.middle[edge]);
+  return appendBetween(meshOf(instance), a, b, float(edges.share[edge]));
 }
 
 void SplitMesh::splitMesh(std::size_t instance, const Edges& edges, std::vector<std::uint32_t>& parents) {
@@ -145,6 +152,8 @@ void SplitMesh::splitMesh(std::size_t instance, const Edges& edges, std::vector<
     std::uint32_t corner[3] = {mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]};
     const std::uint64_t key = longest(instance, t);
     while (edgeKey(place_[instance][corner[0]], place_[instance][corner[1]]) != key)
+      std::rotate(corner, corner + 1, corner + 3);
+    for (int k = 0; k < 2 && !isSplit(corner[0], corner[1]); ++k)  // cut, but not there
       std::rotate(corner, corner + 1, corner + 3);
     const auto [a, b, c] = corner;
     if (!isSplit(a, b)) {
@@ -196,6 +205,9 @@ SplitMesh::Edges SplitMesh::collectEdges() const {
   edges.first_triangle.assign(edges.index.size() + 1, 0);
   edges.copies.assign(edges.index.size(), 0);
   edges.middle.assign(edges.index.size(), Edges::kWhole);
+  edges.share.assign(edges.index.size(), 0.5);
+  edges.keys.resize(edges.index.size());
+  for (const auto& [key, edge] : edges.index) edges.keys[edge] = key;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const Side& side = sides[s];
     ++edges.first_triangle[side.edge + 1];
@@ -231,15 +243,55 @@ std::vector<std::uint32_t> SplitMesh::markSplit(const TriangleRef& triangle, Edg
   return marked;
 }
 
-void SplitMesh::placeMiddles(Edges& edges) {
-  std::vector<std::uint64_t> keys(edges.index.size());
-  for (const auto& [key, edge] : edges.index) keys[edge] = key;
-  for (std::size_t e = 0; e < keys.size(); ++e) {
-    if (edges.middle[e] == Edges::kWhole) continue;
-    edges.middle[e] = std::uint32_t(places_.size());
-    places_.push_back(0.5 *
-                      (places_[std::size_t(keys[e] >> 32)] + places_[std::size_t(keys[e] & 0xffffffffu)]));
+glm::dvec3 SplitMesh::normalOf(const Edges& edges, std::size_t edge) const {
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t s = edges.first_triangle[edge]; s < edges.first_triangle[edge + 1]; ++s) {
+    const TriangleRef& triangle = edges.triangles[s];
+    const std::uint32_t* corner = &meshOf(triangle.instance).indices[3 * std::size_t(triangle.triangle)];
+    const auto at = [&](int k) { return places_[place_[triangle.instance][corner[k]]]; };
+    const glm::dvec3 across = glm::cross(at(1) - at(0), at(2) - at(0));
+    if (const double length = glm::length(across); length > 0.0) sum += across / length;
   }
+  const double length = glm::length(sum);
+  return length > 1e-3 ? sum / length : glm::dvec3(0.0);
+}
+
+std::vector<std::vector<std::uint32_t>> SplitMesh::apply(Edges& edges) {
+  for (std::size_t e = 0; e < edges.keys.size(); ++e) {
+    if (edges.middle[e] == Edges::kWhole) continue;
+    const glm::dvec3 a = places_[std::size_t(edges.keys[e] >> 32)],
+                     b = places_[std::size_t(edges.keys[e] & 0xffffffffu)];
+    edges.middle[e] = std::uint32_t(places_.size());
+    places_.push_back((1.0 - edges.share[e]) * a + edges.share[e] * b);
+  }
+  std::vector<std::vector<std::uint32_t>> parents(mesh_of_.size());
+  for (std::size_t i = 0; i < mesh_of_.size(); ++i) {
+    if (mesh_of_[i] != kNone) splitMesh(i, edges, parents[i]);
+  }
+  return parents;
+}
+
+std::vector<std::vector<std::uint32_t>> SplitMesh::cut(const Crossing& crossing, const glm::dvec2& lengths,
+                                                       std::size_t max_vertices) {
+  Edges edges = collectEdges();
+  std::vector<double> shares(edges.keys.size(), 0.0);
+  tbb::parallel_for(std::size_t(0), shares.size(), [&](std::size_t e) {
+    const glm::dvec3 &a = places_[std::size_t(edges.keys[e] >> 32)],
+                     &b = places_[std::size_t(edges.keys[e] & 0xffffffffu)];
+    const double length = glm::distance(a, b);
+    if (length >= lengths.x && length <= lengths.y) shares[e] = crossing(a, b, normalOf(edges, e));
+  });
+  std::size_t vertices = vertexCount();
+  full_ = false;
+  for (std::size_t e = 0; e < shares.size() && !full_; ++e) {
+    if (!(shares[e] > 0.0)) continue;
+    full_ = vertices + edges.copies[e] > max_vertices;
+    if (full_) break;
+    vertices += edges.copies[e];
+    edges.share[e] = shares[e];
+    edges.middle[e] = 0;
+  }
+  return apply(edges);
 }
 
 std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<TriangleRef>& triangles,
@@ -257,12 +309,7 @@ std::vector<std::vector<std::uint32_t>> SplitMesh::split(const std::vector<Trian
     }
     vertices += made;
   }
-  placeMiddles(edges);
-  std::vector<std::vector<std::uint32_t>> parents(mesh_of_.size());
-  for (std::size_t i = 0; i < mesh_of_.size(); ++i) {
-    if (mesh_of_[i] != kNone) splitMesh(i, edges, parents[i]);
-  }
-  return parents;
+  return apply(edges);
 }
 
 }  // namespace gloam::prt

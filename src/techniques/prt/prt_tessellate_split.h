@@ -8,6 +8,7 @@
 #include <gloam/scene.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace gloam::prt {
@@ -33,7 +34,13 @@ class SplitMesh {
   /// `max_vertices`. Returns by instance, for each triangle that now is, the one that it is a part of.
   std::vector<std::vector<std::uint32_t>> split(const std::vector<TriangleRef>& triangles,
                                                 std::size_t max_vertices);
-  /// Whether the last split() had to leave any out.
+  /// The share of the way from a to b, in the world, at which an edge is to be cut; 0: not at all. `normal` is that of the
+  /// triangles at the edge, in the mean, or 0. Called by all threads.
+  using Crossing = std::function<double(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& normal)>;
+  /// Cuts edges of these lengths where `crossing` says, longest or not, and all triangles that have them. Returns as split().
+  std::vector<std::vector<std::uint32_t>> cut(const Crossing& crossing, const glm::dvec2& lengths,
+                                              std::size_t max_vertices);
+  /// Whether the last split() or cut() had to leave any out.
   bool full() const { return full_; }
 
  private:
@@ -42,7 +49,9 @@ class SplitMesh {
   /// Marks the longest edge of a triangle, and all that have to be split with it. Returns those that were not marked before;
   /// adds the vertices that they make.
   std::vector<std::uint32_t> markSplit(const TriangleRef& triangle, Edges& edges, std::size_t& made) const;
-  void placeMiddles(Edges& edges);
+  glm::dvec3 normalOf(const Edges& edges, std::size_t edge) const;
+  /// Places the new vertices and makes the triangles.
+  std::vector<std::vector<std::uint32_t>> apply(Edges& edges);
   std::uint64_t longest(std::size_t instance, std::size_t triangle) const;
   void splitMesh(std::size_t instance, const Edges& edges, std::vector<std::uint32_t>& parents);
   std::uint32_t middle(std::size_t instance, std::uint32_t a, std::uint32_t b, const Edges& edges);

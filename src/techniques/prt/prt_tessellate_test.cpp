@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "techniques/prt/prt_bake_test_scenes.h"
+#include "techniques/prt/prt_tessellate_cut.h"
 #include "techniques/prt/prt_tessellate_error.h"
 #include "techniques/prt/prt_tessellate_split.h"
 
@@ -111,6 +112,36 @@ TEST(PrtTessellate, NeighbouringMeshesAreSplitAlike) {
   EXPECT_GT(along(0, 1.0f).size(), 3u);
   EXPECT_EQ(along(0, 1.0f), along(1, -1.0f));
   EXPECT_EQ(along(0, -1.0f), along(2, -1.0f));
+}
+
+// A box sunk into a floor and one that stands upon it: afterwards no edge goes from the open into either, and no crack opens.
+TEST(PrtTessellate, EdgesAreCutWhereBodiesMeet) {
+  for (const float height : {0.02f, 0.15f}) {
+    Scene scene = sceneOf(gridMesh(1.0f, 12));
+    addMesh(scene, boxMesh({0.3f, 0.15f, 0.2f}, false));
+    scene.nodes[1].translation = {0.013f, height, 0.027f};
+    const Scene whole = scene;
+    const PosedScene posed = pose(whole, 0.0f);
+    const trace::Tracer tracer(whole, posed);
+    SplitMesh mesh(scene, pose(scene, 0.0f));
+    const float area = areaOf(scene);
+    for (int k = 0; k < 3; ++k) mesh.cut(crossingsWith(tracer, whole, posed), {0.0, 10.0}, 1u << 20);
+    EXPECT_NEAR(areaOf(scene), area, 1e-4f * area);
+    const auto beyond = [&](const glm::vec3& p) {  // metres outside the box's outline
+      return std::max(std::abs(p.x - 0.013f) - 0.3f, std::abs(p.z - 0.027f) - 0.2f);
+    };
+    std::size_t on_outline = 0;
+    for (const glm::vec3& p : scene.meshes[0].positions) on_outline += std::abs(beyond(p)) < 1e-3f;
+    EXPECT_GT(on_outline, 20u);
+    const Mesh& floor = scene.meshes[0];
+    for (std::size_t i = 0; i < floor.indices.size(); ++i) {
+      const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+      const float a = beyond(floor.positions[floor.indices[i]]),
+                  b = beyond(floor.positions[floor.indices[next]]);
+      EXPECT_FALSE(std::max(a, b) > 0.01f && std::min(a, b) < -0.01f) << a << " " << b;
+    }
+    for (const auto& [edge, count] : edgesOf(scene)) ASSERT_LE(count, 2);
+  }
 }
 
 TEST(PrtTessellate, AllOfAVertexIsInterpolated) {
