@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Rows RF-5 and beyond with the host's vector units, a pixel a lane: twin of radiance_filter_shade and radiance_filter_beams, which tell the method.
+// More than 300 lines: types of lanes are known within one instruction set's part of one file, and beams and lobes share all of them; a
+// header of the halves would be compiled as often, and read by this file alone.
 #include "math/simd_targets.h"
 // Highway compiles this file once an instruction set; the order of its headers matters.
 // clang-format off
