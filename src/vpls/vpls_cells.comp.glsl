@@ -12,7 +12,7 @@
 
 const float kPi = 3.14159265;
 
-layout(local_size_x = 32) in;  // a cell
+layout(local_size_x = 8) in;  // a cell
 layout(set = 0, binding = 0) uniform sampler2D position_map;
 layout(set = 0, binding = 1) uniform sampler2D normal_map;
 layout(set = 0, binding = 2) uniform sampler2D flux_map;
@@ -25,9 +25,9 @@ const ivec2 kTried[kTries] = ivec2[kTries](ivec2(3, 3), ivec2(1, 1), ivec2(5, 1)
 const float kSameNormal = 0.8, kSamePlane = 0.25;  // least cosine; rise over run
 /// Texels a side of a cell; of wider ones every second, third ... is looked at. Some drivers end a shader's loops at 65,535 turns in
 /// all: four loops over a cell are 32,768.
-const int kMostTexels = 512;
+const int kMostTexels = 256;
 const float kLeastRest = 0.01;  // of a cell's flux that has a light of its own
-const uint kLanes = 32u;
+const uint kLanes = 8u;
 
 struct Point {
   vec3 position, normal;
