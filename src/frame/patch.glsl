@@ -27,6 +27,37 @@ vec3 patchVector(PatchRow row, vec3 position, out float height) {
   return (dot(sum, row.normal) > 0.0) == (height >= 0.0) ? -sum : sum;
 }
 
+/// What lies along a surface is not seen from it.
+const float kTangent = 1e-3;  // of a patch's size
+/// Clipped to the tangent plane: between two corners, of which one at least is above it.
+struct Clipped {
+  float sum;
+  vec3 last, first;  // where the outline goes below and comes back
+};
+void addEdge(inout Clipped clipped, vec3 a, vec3 b, vec3 normal, float lift) {
+  float from = dot(a, normal) - lift, to = dot(b, normal) - lift;
+  if (max(from, to) <= 0.0) return;
+  vec3 between = mix(a, b, clamp(from / (abs(from - to) > 1e-12 ? from - to : 1e-12), 0.0, 1.0));
+  if (to <= 0.0) clipped.last = between;
+  if (from <= 0.0) clipped.first = between;
+  clipped.sum += dot(edgeTerm(wayTo(from > 0.0 ? a : between), wayTo(to > 0.0 ? b : between)), normal);
+}
+/// Irradiance of a patch of radiance 1 that a surface with that normal gets on its side of the patch, without what is below its tangent plane.
+float patchIrradiance(PatchRow row, vec3 position, vec3 normal) {
+  vec3 c = row.center - position;
+  float lift = kTangent * length(row.half_u + row.half_v);
+  if (dot(c, row.normal) > -lift) return 0.0;
+  vec3 r0 = c - row.half_u - row.half_v, r1 = c + row.half_u - row.half_v;
+  vec3 r2 = c + row.half_u + row.half_v, r3 = c - row.half_u + row.half_v;
+  Clipped clipped = Clipped(0.0, vec3(0.0), vec3(0.0));
+  addEdge(clipped, r0, r1, normal, lift);
+  addEdge(clipped, r1, r2, normal, lift);
+  addEdge(clipped, r2, r3, normal, lift);
+  addEdge(clipped, r3, r0, normal, lift);
+  clipped.sum += dot(edgeTerm(wayTo(clipped.last), wayTo(clipped.first)), normal);
+  return 0.5 * abs(clipped.sum);
+}
+
 /// A blocker. `there`: 0 to 1. For a surface that faces as it does one fades out in its plane, and from behind at some distance: a point
 /// of a surface may lie a little below the rectangle that stands for it. The ground at a wall's foot faces another way.
 const float kPatchNear = 0.03;  // of its size

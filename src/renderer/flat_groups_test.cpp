@@ -62,11 +62,28 @@ TEST(FlatGroups, RaysMeetWhatStandsOverThem) {
   builder.place("roof", shapes::ground(20, 20, 1, 1), builder.diffuse("grey", glm::vec3(0.5f)), {0, 0.1f, 0});
   const Scene scene = builder.finish();
   std::vector<std::vector<FlatPoint>> points{floorPoints([](const glm::vec3&) { return 0.5f; })};
-  meetSurfaces(scene, pose(scene, 0.0f), points);
+  const PosedScene posed = pose(scene, 0.0f);
+  meetSurfaces(scene, posed, {&posed.instances[0]}, points);
   for (const FlatPoint& point : points[0]) EXPECT_GT(point.meets, 0.7f);
   for (FlatPoint& point : points[0]) point.normal = {0, -1, 0};
-  meetSurfaces(scene, pose(scene, 0.0f), points);
+  meetSurfaces(scene, posed, {&posed.instances[0]}, points);
   for (const FlatPoint& point : points[0]) EXPECT_EQ(point.meets, 0.0f);
+}
+
+TEST(FlatGroups, PointsOfRoomsAreEnclosedByWhatIsFlatAlone) {
+  SceneBuilder builder("room");
+  const int grey = builder.diffuse("grey", glm::vec3(0.5f));
+  builder.place("room", shapes::box({-3, -3, -3}, {3, 3, 3}, 1), grey);
+  const Scene scene = builder.finish();
+  const PosedScene posed = pose(scene, 0.0f);
+  std::vector<std::vector<FlatPoint>> points{floorPoints([](const glm::vec3&) { return 0.5f; })};
+  meetSurfaces(scene, posed, {&posed.instances[0]}, points);
+  for (const FlatPoint& point : points[0]) EXPECT_TRUE(point.enclosed);
+  meetSurfaces(scene, posed, {}, points);
+  for (const FlatPoint& point : points[0]) {
+    EXPECT_FALSE(point.enclosed);
+    EXPECT_EQ(point.meets, 1.0f);
+  }
 }
 
 }  // namespace

@@ -22,16 +22,18 @@ constexpr float kThin = 0.2f;       // thickness over width of what blocks as on
 constexpr float kThinnest = 1e-3f;  // of a cell's side: half of a rectangle's width, at least
 // Beyond the bounds of its points: what is hollow has more area than its outline, a row of strips far more.
 constexpr float kMostGrown = 1.5f;
+constexpr float kEnclosed = 0.95f;  // of its points
 
 /// The rectangle that bounds these points, scaled to their area, by `most_scale` at most; none where they face all ways.
 void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, float most_scale,
               std::vector<frame::Patch>& patches) {
   glm::vec3 normal(0.0f), albedo(0.0f), emission(0.0f);
-  float depth = 0.0f;
+  float depth = 0.0f, enclosed = 0.0f;
   const int w = group.axis, u = (w + 1) % 3, v = (w + 2) % 3;
   for (const FlatPoint& point : group.points) {
     normal += point.area * point.normal, albedo += point.area * point.albedo;
     emission += point.area * point.emission, depth += point.area * glm::dot(axes[w], point.place);
+    enclosed += point.enclosed ? point.area : 0.0f;
   }
   if (!(glm::length(normal) > 0.0f)) return;
   const glm::vec3 middle = 0.5f * (group.low + group.high);
@@ -45,6 +47,7 @@ void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, flo
   patch.half_v = scale * half[v] * glm::cross(patch.normal, along);
   patch.albedo = albedo / group.area;
   patch.glow = emission / group.area;
+  patch.enclosed = enclosed >= kEnclosed * group.area;
   patches.push_back(patch);
 }
 
@@ -143,7 +146,7 @@ FlatPatches::FlatPatches(const Scene& scene, const SceneSpheres& spheres, int se
     }
   };
   if (senders > 0) {
-    meetSurfaces(scene, posed, points);
+    meetSurfaces(scene, posed, instances, points);
     keep(groupedByLight(points, axes, senders), float(std::sqrt(area / senders)), INFINITY, &Placed::senders);
   }
   fill(points, blockers, &Placed::blockers);

@@ -64,23 +64,31 @@ std::vector<FlatPoint> pointsOf(const Scene& scene, const Instance& instance, do
   return points;
 }
 
-void meetSurfaces(const Scene& scene, const PosedScene& posed, std::vector<std::vector<FlatPoint>>& points) {
+void meetSurfaces(const Scene& scene, const PosedScene& posed, const std::vector<const Instance*>& instances,
+                  std::vector<std::vector<FlatPoint>>& points) {
   const trace::Tracer tracer(scene, posed, {.reproducible = true});
+  PosedScene flat = posed;
+  flat.instances.clear();
+  for (const Instance* instance : instances) flat.instances.push_back(*instance);
+  const trace::Tracer among_flat(scene, flat, {.reproducible = true});
   const float before = kClear * glm::length(posed.bounds_max - posed.bounds_min);
   std::uint32_t count = 0;
   for (std::vector<FlatPoint>& own : points) {
     for (FlatPoint& point : own) {
       const glm::mat3 world_from_local = sampling::frame(point.normal);
-      int met = 0;
+      int met = 0, met_flat = 0;
       for (int k = 0; k < kRays; ++k) {
         ++count;
         const glm::vec2 u(std::fmod(0.7548776662466927 * double(count), 1.0),
                           std::fmod(0.5698402909980532 * double(count), 1.0));
         const glm::vec3 direction = world_from_local * sampling::cosineHemisphere(u);
-        met +=
-            tracer.occluded({.origin = point.place + before * point.normal, .direction = direction}) ? 1 : 0;
+        const trace::Ray ray{.origin = point.place + before * point.normal, .direction = direction};
+        if (!tracer.occluded(ray)) continue;
+        ++met;
+        met_flat += among_flat.occluded(ray) ? 1 : 0;
       }
       point.meets = float(met) / float(kRays);
+      point.enclosed = met_flat == kRays;
     }
   }
 }

@@ -168,6 +168,7 @@ Sending SphericalLights::recordSending(const Step& step) {
       .read("glow", step.glow)
       .read("meets", step.meets)
       .read("blocking_patches", step.blocking_patches)
+      .read("sending_patches", step.sending_patches)
       .read("light", step.light)
       .write("arriving", arriving)
       .push(SampleParams{step.params, point_count})
@@ -212,12 +213,16 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
   const bool balls = lampsAreBalls(inputs, settings);
   if (balls) addLamps(rows, inputs.shadow_maps.lights, settings.number("lamp_radius"), inputs.warnings);
   addGlowing(rows, inputs.emission->glowing_patches);
-  if (!settings.flag("flats")) rows.sending_patches.clear(), rows.blocking_patches.clear();
-  if (!settings.flag("indirect")) rows.sending_patches.clear();
-  addPatchPoints(rows);
+  if (!settings.flag("flats"))
+    rows.sending_patches.clear(), rows.blocking_patches.clear(), rows.enclosed_patches = 0;
+  const bool send = settings.flag("indirect");
+  if (send)
+    addPatchPoints(rows);
+  else
+    rows.sending_patches.resize(rows.enclosed_patches);
   listNeighbours(rows, blockingOf(settings));
   const auto count = std::uint32_t(rows.spheres.size());
-  const auto patches = std::uint32_t(rows.sending_patches.size());
+  const auto patches = send ? std::uint32_t(rows.sending_patches.size()) : 0u;
   const bool hierarchy = settings.number("hierarchy") > 0.0f && settings.flag("indirect") &&
                          quick(blockingOf(settings), visibilityOf(settings), rows.objects.size()) &&
                          blockingOf(settings) == kPerObject;
@@ -252,7 +257,8 @@ frame::Lighting SphericalLights::record(gpu::FrameGraph& graph, const frame::Fra
       .sending_patches = uploadRows(graph, "spherical_lights.sending_patches", rows.sending_patches),
       .patch_radiance = patch_radiance,
       .params = {count, std::uint32_t(rows.objects.size()), std::uint32_t(rows.words),
-                 std::uint32_t(rows.blocking_patches.size()), patches, std::uint32_t(rows.coarse.size())}};
+                 std::uint32_t(rows.blocking_patches.size()), patches, rows.enclosed_patches,
+                 std::uint32_t(rows.coarse.size())}};
   const Sending sending = step.indirect ? recordSending(step) : Sending{.sent = step.glow};
   if (sending.arriving) recordView(step, sending);
   return recordGathering(step, sending.sent);

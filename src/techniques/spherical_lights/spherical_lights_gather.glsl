@@ -66,6 +66,7 @@ Gathered gather(vec3 position, vec3 normal) {
   uint last = 0xffffffffu, i = 0u, left = 0u;
   uint steps = push.params.spheres + 2u;
   Sh4 whole, patch_logs = logOfPatches(position, normal, whole);
+  float sky_left = skyLeft(position, normal);
   // After all spheres: what they leave, through which patches are seen; how much of that patches take; then both before the environment.
   for (uint k = 0u; k <= steps; ++k) {
     bool final = k == steps, spheres_done = k + 2u >= steps, patches_taken = k + 1u == steps;
@@ -108,10 +109,10 @@ Gathered gather(vec3 position, vec3 normal) {
       float e[16];
       shExpQuadratic4(GLOAM_ARRAY_OF(f), e);
       if (final) {
-        got.direct = litThrough(e, normal);
-        got.visibility = e[0] / kShZonal0;
+        got.direct = litThrough(e, normal) * sky_left;
+        got.visibility = e[0] / kShZonal0 * sky_left;
       } else if (patches_taken) {
-        got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine));
+        got.indirect += withoutOverlap(from_patches, clear_of_spheres, dotOf(GLOAM_SH4_OF(e), cosine) * sky_left);
       } else if (spheres_done && has_indirect) {
         from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
         clear_of_spheres = dotOf(GLOAM_SH4_OF(e), cosine);

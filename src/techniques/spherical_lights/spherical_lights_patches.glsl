@@ -31,6 +31,16 @@ Sh4 logOfPatches(vec3 position, vec3 normal, out Sh4 whole) {
   return sum;
 }
 
+/// What four bands of closed walls let through goes: 0 where rectangles that no light from far away meets are all around. That a few of them hide
+/// one another counts them twice, where it is dark.
+float skyLeft(vec3 position, vec3 normal) {
+  float taken = 0.0;
+  for (uint j = 0u; j < push.params.enclosed_patches; ++j) {
+    taken += patchIrradiance(sendingPatch(j), position, normal);
+  }
+  return smoothstep(0.0, kSkyLeft, 1.0 - taken / 3.14159265);
+}
+
 /// How much of a ball that shines rectangles leave: each as it stands on the way to its middle, its edges as blurred as from a disc that
 /// large. None stands before its own surface, or before a ball that it touches.
 float ballPastPatches(vec3 position, vec3 normal, vec3 center, float radius) {
@@ -57,12 +67,16 @@ vec4 lightOfPatches(vec3 position, vec3 normal, Sh4 visible) {
   vec4 sum = vec4(0.0);
   for (uint j = 0u; j < push.params.sending_patches; ++j) {
     float height;
-    vec3 toward = patchVector(sendingPatch(j), position, height);
+    PatchRow row = sendingPatch(j);
+    vec3 toward = patchVector(row, position, height);
     float size = length(toward);
-    vec4 disc = discWeights(sqrt(min(size / 3.14159265, 1.0)));
+    float sin_half_angle = sqrt(min(size / 3.14159265, 1.0));
+    vec4 disc = discWeights(sin_half_angle);
     vec3 way = size > 1e-9 ? toward / size : normal;
     float open = clamp(dotOf(scaled(basisAt(way), disc), visible) / max(disc.x, 1e-12), 0.0, 1.0);
-    float facing = height > 0.0 ? max(0.0, dot(toward, normal)) : 0.0;
+    // Lambert's where it is above the tangent plane; where it crosses that, no less than the disc of the same vector irradiance.
+    SeenSphere seen = seenSphere(vec3(0.0), normal, way, sin_half_angle, 0.0);
+    float facing = height > 0.0 ? max(dot(toward, normal), irradianceOfDisc(seen, normal)) : 0.0;
     sum += vec4(patchRadiance(j), 1.0) * (facing * open);
   }
   return sum;

@@ -106,7 +106,7 @@ Gathered receive(vec3 position, vec3 normal) {
   Sh4 cosine = scaled(basisAt(normal), vec4(kShCosine0, kShCosine1, kShCosine2, 0.0));
   Sh4 whole, patch_logs = logOfPatches(position, normal, whole);
   vec4 from_patches = vec4(0.0);
-  float clear = 0.0;
+  float clear = 0.0, sky_left = skyLeft(position, normal);
   for (int t = has_indirect && push.params.sending_patches > 0u ? 0 : 2; t < 3; ++t) {
     Sh4 f = all;
     if (t == 1) f = plus(all, whole);
@@ -118,10 +118,10 @@ Gathered receive(vec3 position, vec3 normal) {
       from_patches = lightOfPatches(position, normal, GLOAM_SH4_OF(e));
       clear = through;
     } else if (t == 1) {
-      got.indirect += withoutOverlap(from_patches, clear, through);
+      got.indirect += withoutOverlap(from_patches, clear, through * sky_left);
     } else {
-      got.direct += litThrough(e, normal);
-      got.visibility = e[0] / kShZonal0;
+      got.direct += litThrough(e, normal) * sky_left;
+      got.visibility = e[0] / kShZonal0 * sky_left;
     }
   }
   return got;

@@ -81,7 +81,12 @@ Rows rowsOf(std::span<const frame::Proxy> proxies, const frame::Emission& emissi
   }
   for (const frame::EmissionPoint& point : emission.points)
     rows.points.push_back({point.position, point.sends, point.normal, 0.0f});
-  for (const frame::Patch& patch : emission.sending_patches) rows.sending_patches.push_back(patchRow(patch));
+  for (const bool enclosed : {true, false}) {
+    for (const frame::Patch& patch : emission.sending_patches) {
+      if (patch.enclosed == enclosed) rows.sending_patches.push_back(patchRow(patch));
+    }
+    if (enclosed) rows.enclosed_patches = std::uint32_t(rows.sending_patches.size());
+  }
   for (const frame::Patch& patch : emission.blocking_patches)
     rows.blocking_patches.push_back(patchRow(patch));
   rows.meets = emission.meets;

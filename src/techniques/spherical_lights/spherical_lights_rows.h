@@ -25,9 +25,10 @@ struct Rows {
   std::vector<std::uint32_t> meets;  ///< `words` a sphere
   int words = 1;
   std::vector<PatchRow> sending_patches,
-      blocking_patches;               ///< kPatchPoints points each of the first, after those of spheres
-  std::vector<std::uint32_t> listed;  ///< of each sphere, of its object: see listNeighbours
-  std::vector<LevelRow> levels;       ///< see addCoarse
+      blocking_patches;                ///< kPatchPoints points each of the first, after those of spheres
+  std::uint32_t enclosed_patches = 0;  ///< of the first, at their head
+  std::vector<std::uint32_t> listed;   ///< of each sphere, of its object: see listNeighbours
+  std::vector<LevelRow> levels;        ///< see addCoarse
   std::vector<CoarseRow> coarse;
   std::vector<std::uint32_t> leaves;
 };

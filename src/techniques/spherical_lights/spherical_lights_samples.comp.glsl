@@ -35,7 +35,7 @@ vec3 throughAll(vec3 position, vec3 normal) {
   for (uint j = 0u; j < push.params.spheres; ++j) logs = plus(logs, logOf(position, normal, j));
   float o[16];
   shExpQuadratic4(GLOAM_ARRAY_OF(logs), o);
-  return litThrough(o, normal);
+  return litThrough(o, normal) * skyLeft(position, normal);
 }
 
 void main() {

@@ -97,7 +97,9 @@ struct SentRow {
 GLOAM_SHARED_SIZE(SentRow, 192)
 
 /// What patches take of the view is found from a few cones: that much more may come from them.
-GLOAM_SHARED_CONST float kPatchSlack = 1.15f;
+GLOAM_SHARED_CONST float kPatchSlack = 1.04f;
+/// Share of the sky, weighted by the cosine, from which on it is as four bands tell; closed rooms have less.
+GLOAM_SHARED_CONST float kSkyLeft = 0.25f;
 /// How far from its plane, in its lesser half side, a surface that lies along a patch may be its own: one stands in the middle of a thing.
 GLOAM_SHARED_CONST float kPatchOwn = 1.3f;
 /// Rows that the buffer of what patches send has past its last: it is read by eight words.
@@ -124,14 +126,15 @@ struct GatherParams {
   uint words;  // of a sphere's bits: which it meets
   uint blocking_patches;
   uint sending_patches;
-  uint coarse;  // spheres that follow
+  uint enclosed_patches;  // those at the head of these, also where none sends
+  uint coarse;            // spheres that follow
 };
-GLOAM_SHARED_SIZE(GatherParams, 24)
+GLOAM_SHARED_SIZE(GatherParams, 28)
 struct CutParams {
   GatherParams params;
   float limit;  // sine of the half-angle
 };
-GLOAM_SHARED_SIZE(CutParams, 28)
+GLOAM_SHARED_SIZE(CutParams, 32)
 struct FlatParams {
   uint patches;
   uint first_point;
@@ -146,7 +149,7 @@ struct SampleParams {
   GatherParams params;
   uint points;
 };
-GLOAM_SHARED_SIZE(SampleParams, 28)
+GLOAM_SHARED_SIZE(SampleParams, 32)
 
 GLOAM_SHARED_END
 #endif

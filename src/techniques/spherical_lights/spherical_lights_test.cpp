@@ -247,6 +247,36 @@ TEST(SphericalLights, GroundSendsItsLight) {
   EXPECT_LT(picture.direct[4 * middle], 0.1f);  // the sky below is behind the ground
 }
 
+// Six walls around, which no light from far away meets: four bands of them leave some sky, and that goes.
+TEST(SphericalLights, ClosedRoomsHaveNoSky) {
+  SceneBuilder builder("ball");
+  builder.place("ball", shapes::icosphere(0.5f, 16), builder.diffuse("white", glm::vec3(1.0f)));
+  builder.sky("uniform");
+  const Scene scene = builder.finish();
+  const PosedCamera camera = frame::cameraAt({0.2f, 0.7f, 1.5f}, {0, 0, 0}, 20);
+  const std::size_t middle = (kSize / 2) * kSize + kSize / 2;
+  float open = 0.0f;
+  for (const bool enclosed : {false, true}) {
+    Balls balls({});
+    for (const glm::vec3& way :
+         {glm::vec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}) {
+      const glm::vec3 u(way.y, way.z, way.x), v(way.z, way.x, way.y);
+      balls.emission.sending_patches.push_back({2.0f * way, 2.0f * u, 2.0f * v, -way, glm::vec3(0.5f)});
+      balls.emission.sending_patches.back().enclosed = enclosed;
+    }
+    balls.emission.blocking_patches = balls.emission.sending_patches;
+    for (const char* indirect : {"true", "false"}) {
+      const Picture picture = draw(scene, camera, balls, {{"indirect", indirect}});
+      const float direct = picture.direct[4 * middle];
+      if (enclosed)
+        EXPECT_LT(direct, 0.01f * open) << indirect;
+      else
+        open = direct;
+    }
+  }
+  EXPECT_GT(open, 0.05f);
+}
+
 // More objects than the kernel once kept: the quick kernel, per object and per sphere, against sums written out.
 TEST(SphericalLights, ManyObjectsAgreeWithTheirTwins) {
   const Scene scene = frame::planeScene("preetham?elevation=35");

@@ -72,8 +72,9 @@ class Twin {
   TwinLight at(const glm::vec3& p, const glm::vec3& n, int blocking, int visibility) const {
     TwinLight light;
     sh::Sh logs = all(p, n);
-    addPatches(p, n, logs, light.indirect);
-    light.direct = through(logs, n);
+    const float sky_left = skyLeft(p, n);
+    addPatches(p, n, sky_left, logs, light.indirect);
+    light.direct = through(logs, n) * sky_left;
     for (std::size_t i = 0; i < rows_.spheres.size(); ++i) {
       const spheres::SeenSphere seen = see(p, n, i);
       if (!(seen.sin_half_angle > 0.0f)) continue;
@@ -142,12 +143,43 @@ class Twin {
     const bool above = glm::dot(c, glm::dvec3(row.normal)) <= 0.0;
     return glm::vec3((glm::dot(sum, glm::dvec3(row.normal)) > 0.0) == above ? -sum : sum);
   }
+  /// What closed walls leave of the sky: corners of what is above the tangent plane, each edge as Lambert has it.
+  float skyLeft(const glm::vec3& p, const glm::vec3& n) const {
+    double taken = 0.0;
+    for (std::size_t j = 0; j < rows_.enclosed_patches; ++j) {
+      const PatchRow& row = rows_.sending_patches[j];
+      const glm::vec3 c = row.center - p;
+      const float lift = 1e-3f * glm::length(row.half_u + row.half_v);
+      if (glm::dot(c, row.normal) > -lift) continue;
+      const glm::vec3 corners[4] = {c - row.half_u - row.half_v, c + row.half_u - row.half_v,
+                                    c + row.half_u + row.half_v, c - row.half_u + row.half_v};
+      std::vector<glm::dvec3> above;
+      for (int i = 0; i < 4; ++i) {
+        const glm::dvec3 a(corners[i]), b(corners[(i + 1) % 4]);
+        const double from = glm::dot(a, glm::dvec3(n)) - double(lift),
+                     to = glm::dot(b, glm::dvec3(n)) - double(lift);
+        if (from > 0.0) above.push_back(glm::normalize(a));
+        if ((from > 0.0) != (to > 0.0)) above.push_back(glm::normalize(glm::mix(a, b, from / (from - to))));
+      }
+      double sum = 0.0;
+      for (std::size_t i = 0; i < above.size(); ++i) {
+        const glm::dvec3 a = above[i], b = above[(i + 1) % above.size()], across = glm::cross(a, b);
+        const double angle = std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+        if (angle > 1e-9 && glm::length(across) > 1e-9)
+          sum += 0.5 * angle * glm::dot(across, glm::dvec3(n)) / glm::length(across);
+      }
+      taken += std::abs(sum);
+    }
+    const float left = glm::clamp((1.0f - float(taken) / 3.14159265f) / kSkyLeft, 0.0f, 1.0f);
+    return left * left * (3.0f - 2.0f * left);
+  }
   static sh::Sh coneOf(const glm::vec3& toward) {
     const float size = glm::length(toward);
     return sh::disc(4, toward / size, std::asin(std::sqrt(std::min(1.0f, size / 3.14159265f))));
   }
   /// Adds patches to the logs of all spheres, and what they send.
-  void addPatches(const glm::vec3& p, const glm::vec3& n, sh::Sh& logs, glm::vec3& sent) const {
+  void addPatches(const glm::vec3& p, const glm::vec3& n, float sky_left, sh::Sh& logs,
+                  glm::vec3& sent) const {
     const sh::Sh clear = sh::expQuadratic(logs), cosine = sh::rotateZonal(sh::clampedCosine(4), n);
     glm::vec3 arriving(0.0f);
     float white = 0.0f;
@@ -158,7 +190,12 @@ class Twin {
       if (!(glm::dot(p - row.center, row.normal) > 0.0f) || glm::length(toward) < 1e-9f) continue;
       const sh::Sh cone = coneOf(toward);
       const float open = sh::dot(cone, clear) / (cone[0] * sh::zonalFactor(0));
-      const float counts = std::max(0.0f, glm::dot(toward, n)) * std::clamp(open, 0.0f, 1.0f);
+      const float size = glm::length(toward), sine = std::sqrt(std::min(1.0f, size / 3.14159265f));
+      const spheres::SeenSphere disc = spheres::seenSphere(glm::vec3(0.0f), n, toward / size, sine);
+      const float clipped =
+          3.14159265f * disc.sin_half_angle * disc.sin_half_angle * glm::dot(disc.direction, n);
+      const float facing = std::max({0.0f, glm::dot(toward, n), clipped});
+      const float counts = facing * std::clamp(open, 0.0f, 1.0f);
       white += counts;
       if (j < radiance_.size()) arriving += counts * radiance_[j];
     }
@@ -189,7 +226,8 @@ class Twin {
       add(logs, seen, smooth(top / 0.1f));
       add(whole, {std::sqrt(std::min(1.0f, size / 3.14159265f)), toward / size}, 1.0f);
     }
-    const float taken = kPatchSlack * (sh::dot(clear, cosine) - sh::dot(sh::expQuadratic(whole), cosine));
+    const float taken =
+        kPatchSlack * (sh::dot(clear, cosine) - sky_left * sh::dot(sh::expQuadratic(whole), cosine));
     if (white > 1e-9f) sent += arriving * std::min(1.0f, std::max(0.0f, taken) / white);
   }
   sh::Sh logOf(const glm::vec3& p, const glm::vec3& n, std::size_t i) const {
