@@ -6,7 +6,11 @@
 #include <fmt/core.h>
 #include <gloam/spheres.h>
 
+#include <algorithm>
+#include <set>
+
 #include "scene/threads.h"
+#include "scene/transforms.h"
 #include "spheres/objects.h"
 #include "spheres/search.h"
 
@@ -72,6 +76,47 @@ void judge(SphereSet& set) {
   set.spheres.clear(), set.anchors.clear(), set.first_anchor.clear();
 }
 
+/// Instants at which an animation asks for another scale along one axis than along others; the first few.
+std::vector<PosedScene> posesOfStretch(const Scene& scene) {
+  constexpr std::size_t kMost = 16;
+  std::set<float> times_s;
+  for (const Animation& animation : scene.animations) {
+    for (const AnimationChannel& channel : animation.channels) {
+      if (channel.path != AnimationChannel::Path::kScale) continue;
+      const bool cubic = channel.interpolation == AnimationChannel::Interpolation::kCubicSpline;
+      for (std::size_t k = 0; k < channel.times_s.size(); ++k) {
+        const float* scale = &channel.values[3 * (cubic ? 3 * k + 1 : k)];
+        const auto [least, greatest] = std::minmax({scale[0], scale[1], scale[2]});
+        if (greatest - least > 0.02f * std::abs(greatest)) times_s.insert(channel.times_s[k]);
+      }
+    }
+  }
+  std::vector<PosedScene> poses;
+  for (const float time_s : times_s) {
+    if (poses.size() < kMost) poses.push_back(pose(scene, time_s));
+  }
+  return poses;
+}
+
+/// Spheres that only follow a matrix stay round: told where it stretches them.
+void remarkStretch(const SphereSet& set, const std::vector<PosedScene>& poses, Warnings& warnings) {
+  float most = 1.0f;
+  for (const PosedScene& posed : poses) {
+    for (const Instance& instance : posed.instances) {
+      if (std::ranges::find(set.nodes, instance.node) == set.nodes.end()) continue;
+      const glm::vec3 scale = glm::abs(
+          decomposeLinear(glm::mat3(instance.world_from_object) * glm::inverse(set.shape_from_object)).scale);
+      const auto [least, greatest] = std::minmax({scale.x, scale.y, scale.z});
+      most = std::max(most, greatest / std::max(least, 1e-3f * greatest));
+    }
+  }
+  if (most < 1.05f || set.deforms || !set.receive_only.empty()) return;
+  warnings.push_back(fmt::format(
+      "{}: an animation stretches it {:.3g} times as far one way as another; its spheres stay round, "
+      "as large as the greatest stretch",
+      set.name, most));
+}
+
 void remark(const Object& object, Warnings& warnings) {
   const auto say = [&](const std::string& what) { warnings.push_back(object.set.name + ": " + what); };
   if (!object.casts()) {
@@ -109,6 +154,7 @@ SceneSpheres bakeSpheres(const Scene& scene, const SphereOptions& options, const
     if (objects.empty()) throw Error(scene.name, "holds no triangles: nothing to put spheres in");
     markReceivers(objects, posed);
     spreadCount(objects, options.count);
+    const std::vector<PosedScene> stretched = posesOfStretch(scene);
     double work = 0.0, done = 0.0;
     for (const Object& object : objects) work += double(object.count);
     for (Object& object : objects) {
@@ -120,6 +166,7 @@ SceneSpheres bakeSpheres(const Scene& scene, const SphereOptions& options, const
         if (objects.size() > 1) judge(object.set);
       }
       remark(object, result.warnings);
+      remarkStretch(object.set, stretched, result.warnings);
       result.sets.push_back(std::move(object.set));
     }
     progress.report(1.0, "spheres");

@@ -245,6 +245,27 @@ TEST(Spheres, NodesOfOneMeshShareASetUnlessStretchedApart) {
   EXPECT_LE(int(poseSpheres(spheres, scene, pose(scene, 0.0f)).size()), 12);
 }
 
+TEST(Spheres, WhatAnAnimationStretchesIsTold) {
+  for (const bool evenly : {true, false}) {
+    SceneBuilder builder("grows");
+    const int ball =
+        builder.mesh("ball", shapes::icosphere(1.0f, 10), builder.diffuse("white", glm::vec3(0.5f)));
+    const int node = builder.node("egg", kNone, {0, 0, 0});
+    builder.at(node).meshes = {ball};
+    Scene scene = builder.finish();
+    AnimationChannel channel;
+    channel.node = node;
+    channel.path = AnimationChannel::Path::kScale;
+    channel.times_s = {0, 1};
+    channel.values = {1, 1, 1, 3, evenly ? 3.0f : 1.0f, evenly ? 3.0f : 0.5f};
+    scene.animations.push_back({"grow", {channel}});
+    const Warnings warnings = bakeSpheres(scene, quick(1)).warnings;
+    ASSERT_EQ(warnings.size(), evenly ? 0u : 1u);
+    if (evenly) continue;
+    EXPECT_EQ(warnings.front().find("egg: an animation stretches it 6 times"), 0u) << warnings.front();
+  }
+}
+
 TEST(Spheres, SpreadGivesOneToEachAndTheRestByWhatIsGained) {
   std::vector<Object> objects(3);
   for (Object& object : objects) {
