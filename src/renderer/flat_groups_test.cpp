@@ -78,10 +78,10 @@ TEST(FlatGroups, PointsOfRoomsAreEnclosedByWhatIsFlatAlone) {
   const PosedScene posed = pose(scene, 0.0f);
   std::vector<std::vector<FlatPoint>> points{floorPoints([](const glm::vec3&) { return 0.5f; })};
   meetSurfaces(scene, posed, {&posed.instances[0]}, points);
-  for (const FlatPoint& point : points[0]) EXPECT_TRUE(point.enclosed);
+  for (const FlatPoint& point : points[0]) EXPECT_GT(point.room, 1.0f);
   meetSurfaces(scene, posed, {}, points);
   for (const FlatPoint& point : points[0]) {
-    EXPECT_FALSE(point.enclosed);
+    EXPECT_EQ(point.room, 0.0f);
     EXPECT_EQ(point.meets, 1.0f);
   }
 }

@@ -23,17 +23,19 @@ constexpr float kThinnest = 1e-3f;  // of a cell's side: half of a rectangle's w
 // Beyond the bounds of its points: what is hollow has more area than its outline, a row of strips far more.
 constexpr float kMostGrown = 1.5f;
 constexpr float kEnclosed = 0.95f;  // of its points
+constexpr float kRoom =
+    0.25f;  // before what encloses, of its size: what lies closer to its ground has an edge where it ends
 
 /// The rectangle that bounds these points, scaled to their area, by `most_scale` at most; none where they face all ways.
 void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, float most_scale,
               std::vector<frame::Patch>& patches) {
   glm::vec3 normal(0.0f), albedo(0.0f), emission(0.0f);
-  float depth = 0.0f, enclosed = 0.0f;
+  float depth = 0.0f, enclosed = 0.0f, room = 0.0f;
   const int w = group.axis, u = (w + 1) % 3, v = (w + 2) % 3;
   for (const FlatPoint& point : group.points) {
     normal += point.area * point.normal, albedo += point.area * point.albedo;
     emission += point.area * point.emission, depth += point.area * glm::dot(axes[w], point.place);
-    enclosed += point.enclosed ? point.area : 0.0f;
+    enclosed += point.room > 0.0f ? point.area : 0.0f, room += point.area * point.room;
   }
   if (!(glm::length(normal) > 0.0f)) return;
   const glm::vec3 middle = 0.5f * (group.low + group.high);
@@ -47,7 +49,7 @@ void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, flo
   patch.half_v = scale * half[v] * glm::cross(patch.normal, along);
   patch.albedo = albedo / group.area;
   patch.glow = emission / group.area;
-  patch.enclosed = enclosed >= kEnclosed * group.area;
+  patch.enclosed = enclosed >= kEnclosed * group.area && room >= kRoom * group.area * std::sqrt(group.area);
   patches.push_back(patch);
 }
 

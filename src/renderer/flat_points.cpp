@@ -77,6 +77,7 @@ void meetSurfaces(const Scene& scene, const PosedScene& posed, const std::vector
     for (FlatPoint& point : own) {
       const glm::mat3 world_from_local = sampling::frame(point.normal);
       int met = 0, met_flat = 0;
+      float far = 0.0f;
       for (int k = 0; k < kRays; ++k) {
         ++count;
         const glm::vec2 u(std::fmod(0.7548776662466927 * double(count), 1.0),
@@ -85,10 +86,13 @@ void meetSurfaces(const Scene& scene, const PosedScene& posed, const std::vector
         const trace::Ray ray{.origin = point.place + before * point.normal, .direction = direction};
         if (!tracer.occluded(ray)) continue;
         ++met;
-        met_flat += among_flat.occluded(ray) ? 1 : 0;
+        const trace::Hit hit = among_flat.closest(ray);
+        if (hit.instance == kNone) continue;
+        ++met_flat;
+        far += hit.distance;
       }
       point.meets = float(met) / float(kRays);
-      point.enclosed = met_flat == kRays;
+      point.room = met_flat == kRays ? far / float(kRays) : 0.0f;
     }
   }
 }

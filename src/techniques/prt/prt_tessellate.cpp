@@ -27,6 +27,9 @@ constexpr float kSpacing = 1.0f / 64.0f, kFinest = 1.0f / 1024.0f;
 constexpr float kFinestAtEdges = 1.0f / 256.0f, kLittleFall = 0.8f;
 constexpr int kFruitless = 4;
 constexpr int kMostPasses = 64;
+/// Of the area that is still above the bound: less is not worth a pass. Splitting one splits its neighbours, so that a few triangles of the
+/// finest kind run along an edge for dozens of passes.
+constexpr double kLeastArea = 1e-2;
 /// Of an edge, one after the other; and the pass after which none is cut: a triangle as large as the scene is below kSpacing then.
 constexpr int kMostCuts = 4, kLastCut = 12;
 
@@ -193,17 +196,24 @@ class Tessellation {
   /// Triangles to be split, the worst first.
   std::vector<TriangleRef> choose(TessellateReport& report) const {
     std::vector<TriangleRef> chosen;
+    double area = 0.0, area_chosen = 0.0;
     report.above = report.at_finest = 0;
     for (std::uint32_t i = 0; i < errors_.size(); ++i) {
       for (std::uint32_t t = 0; t < errors_[i].size(); ++t) {
         if (!(errors_[i][t] > options_.error)) continue;
         ++report.above;
+        area += mesh_.area({i, t});
         if (isWorthSplitting({i, t})) {
           chosen.push_back({i, t});
+          area_chosen += mesh_.area({i, t});
         } else {
           ++report.at_finest;
         }
       }
+    }
+    if (report.passes > 0 && area_chosen < kLeastArea * area) {
+      report.at_finest = report.above;
+      return {};
     }
     std::ranges::stable_sort(chosen, std::greater(),
                              [&](const TriangleRef& r) { return errors_[r.instance][r.triangle]; });
