@@ -66,9 +66,10 @@ struct PartRefs {
 }  // namespace
 
 bool filtersOnHost(const gpu::Device& device, const Plan& plan) {
-  return !plan.brute() && device.info().software && plan.means != visibility::Means::kDevice &&
-         plan.filter == Filter::kTwoPass && plan.taps != glm::ivec2(1) &&
-         plan.mode != Mode::kIrradianceNormals;
+  constexpr std::size_t kLeast = 4;  // pixels: a vector's worth of values is read at once
+  return plan.pixels() >= kLeast && !plan.brute() && device.info().software &&
+         plan.means != visibility::Means::kDevice && plan.filter == Filter::kTwoPass &&
+         plan.taps != glm::ivec2(1) && plan.mode != Mode::kIrradianceNormals;
 }
 
 HostResult recordOnHost(gpu::FrameGraph& graph, const frame::FrameInputs& inputs, const Plan& plan,

@@ -198,9 +198,11 @@ TEST(RadianceFilterTwin, HostFiltersAsTheDeviceDoes) {
   if (!gpu::testDevice().info().software) GTEST_SKIP() << "the host filters for software drivers alone";
   const Scene scene = loadScene("builtin:lamp?detail=0.3");
   const PosedScene posed = pose(scene, 0.0f);
-  for (const auto& [sets, window, mode] :
-       {std::tuple("4", "1", "radiance"), std::tuple("5", "1", "irradiance"),
-        std::tuple("8", "4", "radiance")}) {
+  for (const auto& [sets, window, mode, width, height] :
+       {std::tuple("4", "1", "radiance", kWidth, kHeight),
+        std::tuple("5", "1", "irradiance", kWidth, kHeight),
+        std::tuple("8", "4", "radiance", kWidth, kHeight), std::tuple("4", "1", "radiance", 1, 3),
+        std::tuple("4", "1", "radiance", 1, 5)}) {
     std::vector<float> filtered[2];
     for (const char* means : {"host", "device"}) {
       frame::TestFrame frame(scene);
@@ -210,7 +212,7 @@ TEST(RadianceFilterTwin, HostFiltersAsTheDeviceDoes) {
            {std::pair("sets", sets), std::pair("window", window), std::pair("mode", mode),
             std::pair("visibility", means), std::pair("direct", "3"), std::pair("indirect", "4")})
         settings.set(name, text);
-      frame.draw(posed, posed.cameras.at(0), {.width = kWidth, .height = kHeight},
+      frame.draw(posed, posed.cameras.at(0), {.width = width, .height = height},
                  [&](gpu::FrameGraph& graph, const frame::FrameInputs& inputs) {
                    return technique.record(graph, inputs, settings);
                  });
