@@ -36,9 +36,8 @@ struct Patch {
   glm::vec3 half_u{0.0f}, half_v{0.0f};  ///< from its middle to the middle of its sides
   glm::vec3 normal{0.0f};                ///< unit; it sends to that side
   glm::vec3 albedo{0.5f};
-  glm::vec3 glow{0.0f};  ///< radiance, of those that shine by themselves
-  bool enclosed =
-      false;  ///< in a closed room: nothing from far away meets it, for what has no spheres is all around
+  glm::vec3 glow{0.0f};   ///< radiance, of those that shine by themselves
+  bool enclosed = false;  ///< in a closed room of what has no spheres: nothing from far away meets it
 };
 
 /// Valid as long as who posed it keeps it.

@@ -23,8 +23,8 @@ constexpr float kThinnest = 1e-3f;  // of a cell's side: half of a rectangle's w
 // Beyond the bounds of its points: what is hollow has more area than its outline, a row of strips far more.
 constexpr float kMostGrown = 1.5f;
 constexpr float kEnclosed = 0.95f;  // of its points
-constexpr float kRoom =
-    0.25f;  // before what encloses, of its size: what lies closer to its ground has an edge where it ends
+// Of its size: how far off what encloses it is, on the mean. What lies closer over its ground ends beside what sees the sky.
+constexpr float kRoom = 0.25f;
 
 /// The rectangle that bounds these points, scaled to their area, by `most_scale` at most; none where they face all ways.
 void addPatch(const FlatGroup& group, const glm::mat3& axes, float thinnest, float most_scale,

@@ -101,6 +101,7 @@ class Tessellation {
     const trace::Tracer tracer(whole, posed, {.reproducible = true, .rigid_only = true}, {});
     const SplitMesh::Crossing crossing = crossingsWith(tracer, whole, posed);
     cut(crossing);
+    posed_ = pose(scene_, options_.time_s);
     for (report.passes = 0; report.passes <= kMostPasses; ++report.passes) {
       measureParts(measure, progress, report);
       if (report.passes == 0) {
@@ -113,10 +114,8 @@ class Tessellation {
       const std::size_t before = mesh_.triangleCount();
       handOn(mesh_.split(chosen, options_.max_vertices), errors_, lineages_);
       if (mesh_.triangleCount() == before) break;
-      if (report.passes < kLastCut)
-        cut(crossing);
-      else
-        posed_ = pose(scene_, options_.time_s);
+      if (report.passes < kLastCut) cut(crossing);
+      posed_ = pose(scene_, options_.time_s);
     }
     report.vertices_after = mesh_.vertexCount();
     report.triangles_after = mesh_.triangleCount();
@@ -150,7 +149,6 @@ class Tessellation {
              errors_, lineages_);
       if (mesh_.triangleCount() == before) break;
     }
-    posed_ = pose(scene_, options_.time_s);
   }
 
   void measureParts(const TessellationError& measure, const Progress& progress, TessellateReport& report) {
@@ -202,10 +200,11 @@ class Tessellation {
       for (std::uint32_t t = 0; t < errors_[i].size(); ++t) {
         if (!(errors_[i][t] > options_.error)) continue;
         ++report.above;
-        area += mesh_.area({i, t});
+        const double own = mesh_.area({i, t});
+        area += own;
         if (isWorthSplitting({i, t})) {
           chosen.push_back({i, t});
-          area_chosen += mesh_.area({i, t});
+          area_chosen += own;
         } else {
           ++report.at_finest;
         }

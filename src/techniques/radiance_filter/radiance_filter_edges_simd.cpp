@@ -10,6 +10,7 @@
 #define HWY_TARGET_INCLUDE "techniques/radiance_filter/radiance_filter_edges_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "techniques/radiance_filter/radiance_filter_surface_simd.h"
 // clang-format on
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,8 @@ namespace gloam::radiance_filter {
 /// Pixels that are taken, a vector's worth at a time: where the first stands, in halves of a layer, and bits of which.
 struct Places {
   int count = 0;
-  std::int32_t first[2 * kMostTaps * kMostTaps];
-  std::uint32_t bits[2 * kMostTaps * kMostTaps];
+  std::int32_t first[kMostTaps * kMostTaps];
+  std::uint32_t bits[kMostTaps * kMostTaps];
 };
 
 }  // namespace gloam::radiance_filter
@@ -56,30 +57,16 @@ int wholePixels(const HostSurfaces& s, int x, int y, std::uint32_t across, std::
 /// Bits of the reach, in rows one below another, that are of the surface at `at`; `first` is where the first row's reach begins.
 void sameInRows(const HostSurfaces& s, std::size_t at, std::size_t first, int reach, int rows,
                 std::uint32_t* same_of_row) {
-  const hn::CappedTag<float, 16> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
+  const Middle::D d;
+  const Middle middle = Middle::ofOne(s, at);
   const auto lanes = int(hn::Lanes(d));
-  const auto normal_x = hn::Set(d, s.normal_x[at]), normal_y = hn::Set(d, s.normal_y[at]),
-             normal_z = hn::Set(d, s.normal_z[at]);
-  const auto x = hn::Set(d, s.x[at]), y = hn::Set(d, s.y[at]), z = hn::Set(d, s.z[at]);
-  const auto tolerance = hn::Set(d, s.tolerance[at]);
-  const auto object = hn::Set(du, s.objects[at]);
   const std::uint32_t of_reach = reach == 32 ? ~0u : (1u << reach) - 1u;
   const std::size_t step = s.at(0, 1) - s.at(0, 0);
   for (int row = 0; row < rows; ++row, first += step) {
     std::uint32_t same = 0;
     for (int i = 0; i < reach; i += lanes) {
-      const std::size_t b = first + std::size_t(i);
-      const auto off = hn::MulAdd(normal_x, hn::Sub(hn::LoadU(d, &s.x[b]), x),
-                                  hn::MulAdd(normal_y, hn::Sub(hn::LoadU(d, &s.y[b]), y),
-                                             hn::Mul(normal_z, hn::Sub(hn::LoadU(d, &s.z[b]), z))));
-      const auto facing = hn::MulAdd(normal_x, hn::LoadU(d, &s.normal_x[b]),
-                                     hn::MulAdd(normal_y, hn::LoadU(d, &s.normal_y[b]),
-                                                hn::Mul(normal_z, hn::LoadU(d, &s.normal_z[b]))));
-      const auto near = hn::And(hn::Le(hn::Abs(off), tolerance), hn::Ge(facing, hn::Set(d, kCrease)));
-      const auto is = hn::And(near, hn::RebindMask(d, hn::Eq(hn::LoadU(du, &s.objects[b]), object)));
       std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(d, is, bytes);
+      hn::StoreMaskBits(d, middle.same(s, first + std::size_t(i)), bytes);
       same |= (std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8) << i;
     }
     same_of_row[row] = same & of_reach;
@@ -265,12 +252,9 @@ class Taken {
 };
 
 bool isSame(const HostSurfaces& s, glm::ivec2 p, glm::ivec2 q) {
-  const std::size_t a = s.at(p.x, p.y), b = s.at(q.x, q.y);
-  const glm::vec3 normal(s.normal_x[a], s.normal_y[a], s.normal_z[a]);
-  return s.objects[a] == s.objects[b] &&
-         glm::dot(normal, glm::vec3(s.normal_x[b], s.normal_y[b], s.normal_z[b])) >= kCrease &&
-         std::abs(glm::dot(normal, glm::vec3(s.x[b] - s.x[a], s.y[b] - s.y[a], s.z[b] - s.z[a]))) <=
-             s.tolerance[a];
+  std::uint32_t same = 0;
+  HWY_DYNAMIC_DISPATCH(sameInRows)(s, s.at(p.x, p.y), s.at(q.x, q.y), 1, 1, &same);
+  return same != 0;
 }
 
 /// How much of a slope is followed: none at steps and turns, all where it goes on (a limiter, after van Leer 1977).
@@ -355,7 +339,6 @@ void mendEdges(HostSurfaces& surfaces, const HostFilter& filter, int row,
   const HostSurfaces& s = surfaces;
   const Line across{filter.taps.x}, down{filter.taps.y};
   const std::size_t layer = 4 * std::size_t(s.width) * std::size_t(s.height);
-  if (s.width * s.height < HWY_DYNAMIC_DISPATCH(pixelsOfVector)()) return;
   Taken taken(s, filter);
   for (int x = 0; x < s.width; ++x) {
     const std::size_t at = s.pixel(x, row);

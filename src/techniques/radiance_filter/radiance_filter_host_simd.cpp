@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "techniques/radiance_filter/radiance_filter_host_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "techniques/radiance_filter/radiance_filter_surface_simd.h"
 // clang-format on
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -24,37 +25,6 @@ namespace gloam::radiance_filter {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One pixel a lane, in the middle of its window.
-struct Middle {
-  const hn::CappedTag<float, 16> d;
-  const hn::RebindToUnsigned<hn::CappedTag<float, 16>> du;
-  hn::Vec<decltype(du)> object;
-  hn::Vec<decltype(d)> x, y, z, normal_x, normal_y, normal_z, tolerance;
-
-  HWY_INLINE Middle(const HostSurfaces& s, std::size_t at)
-      : object(hn::LoadU(du, &s.objects[at])),
-        x(hn::LoadU(d, &s.x[at])),
-        y(hn::LoadU(d, &s.y[at])),
-        z(hn::LoadU(d, &s.z[at])),
-        normal_x(hn::LoadU(d, &s.normal_x[at])),
-        normal_y(hn::LoadU(d, &s.normal_y[at])),
-        normal_z(hn::LoadU(d, &s.normal_z[at])),
-        tolerance(hn::LoadU(d, &s.tolerance[at])) {}
-
-  /// `bit` where the pixels there are of its surface.
-  HWY_INLINE hn::Vec<decltype(du)> same(const HostSurfaces& s, std::size_t there, std::uint32_t bit) const {
-    const auto off = hn::MulAdd(normal_x, hn::Sub(hn::LoadU(d, &s.x[there]), x),
-                                hn::MulAdd(normal_y, hn::Sub(hn::LoadU(d, &s.y[there]), y),
-                                           hn::Mul(normal_z, hn::Sub(hn::LoadU(d, &s.z[there]), z))));
-    const auto facing = hn::MulAdd(normal_x, hn::LoadU(d, &s.normal_x[there]),
-                                   hn::MulAdd(normal_y, hn::LoadU(d, &s.normal_y[there]),
-                                              hn::Mul(normal_z, hn::LoadU(d, &s.normal_z[there]))));
-    const auto near = hn::And(hn::Le(hn::Abs(off), tolerance), hn::Ge(facing, hn::Set(d, kCrease)));
-    const auto is = hn::And(hn::RebindMask(du, near), hn::Eq(object, hn::LoadU(du, &s.objects[there])));
-    return hn::IfThenElseZero(is, hn::Set(du, bit));
-  }
-};
-
 /// The taps that are taken, of the pixels of row `y`. Taps are `step` numbers of a plane apart.
 void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* chosen) {
   const hn::CappedTag<std::uint32_t, 16> du;
@@ -66,12 +36,15 @@ void chooseRow(const HostSurfaces& s, int y, int axis, int taps, std::uint32_t* 
   const std::uint32_t whole = line.whole();
   for (int x = 0; x < s.width; x += lanes) {
     const std::size_t at = s.at(x, y);
-    const Middle middle(s, at);
+    const Middle middle = Middle::ofEach(s, at);
     auto bits = hn::Zero(du);
     const auto look = [&](std::uint32_t wanted) HWY_ATTR {
       for (int j = first; j < last; ++j) {
         if ((wanted >> j & 1u) != 0)
-          bits = hn::Or(bits, middle.same(s, at + std::size_t((j - line.reachBefore()) * step), 1u << j));
+          bits = hn::Or(
+              bits, hn::IfThenElseZero(
+                        hn::RebindMask(du, middle.same(s, at + std::size_t((j - line.reachBefore()) * step))),
+                        hn::Set(du, 1u << j)));
       }
     };
     look(whole);

@@ -6,8 +6,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "frame/frame_shared.h"
-#include "techniques/radiance_filter/radiance_filter_shared.h"
 
 layout(constant_id = 1) const int taps_x = 4;
 layout(constant_id = 2) const int taps_y = 4;
@@ -16,16 +14,11 @@ layout(constant_id = 4) const int parts = 1;
 layout(constant_id = 5) const bool every_pixel = true;  // else those of which rows were replaced
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D ids;
-layout(set = 0, binding = 3) uniform usampler2D normals;
 layout(set = 0, binding = 4) uniform sampler2DArray before;
 layout(set = 0, binding = 5, rgba16f) uniform image2DArray after;
 layout(scalar, set = 0, binding = 6) readonly buffer Across { uint at[]; } masks_across;
 layout(scalar, set = 0, binding = 7) readonly buffer Down { uint at[]; } masks_down;
 layout(scalar, set = 0, binding = 8) writeonly buffer Shifts { vec2 at[]; } shifts;
-layout(scalar, push_constant) uniform Push { FilterLimits limits; } push;
 
 #include "techniques/radiance_filter/radiance_filter_window.glsl"
 

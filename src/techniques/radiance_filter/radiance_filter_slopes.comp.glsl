@@ -6,22 +6,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "frame/frame_shared.h"
 #include "math/sh.glsl"
-#include "techniques/radiance_filter/radiance_filter_shared.h"
 
 layout(constant_id = 1) const int taps = 4;    // of the longer side
 layout(constant_id = 2) const int layers = 7;  // of a part
 layout(constant_id = 3) const int parts = 1;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D ids;
-layout(set = 0, binding = 3) uniform usampler2D normals;
 layout(scalar, set = 0, binding = 4) readonly buffer Shifts { vec2 at[]; } shifts;
 layout(set = 0, binding = 5, rgba16f) uniform image2DArray means;
-layout(scalar, push_constant) uniform Push { FilterLimits limits; } push;
 
 #include "techniques/radiance_filter/radiance_filter_window.glsl"
 

@@ -1,16 +1,23 @@
 // gloam - real-time soft global illumination
 // SPDX-License-Identifier: MIT
 //
-// Which pixels a pixel is averaged with (RF-4): of its object, near its tangent plane, not beyond a crease. Includers declare frame_view, depth, ids,
-// normals and push.limits.
+// Which pixels a pixel is averaged with (RF-4): of its object, near its tangent plane, not beyond a crease. Bindings 0 to 3 and
+// the push constants are declared here, for all passes that ask.
 #ifndef GLOAM_RADIANCE_FILTER_WINDOW_GLSL
 #define GLOAM_RADIANCE_FILTER_WINDOW_GLSL
 #include "frame/frame_shared.h"
 #include "frame/gbuffer.glsl"
 #include "frame/view.glsl"
 #include "techniques/radiance_filter/radiance_filter_line.glsl"
+#include "techniques/radiance_filter/radiance_filter_shared.h"
 
 layout(constant_id = 0) const bool tests_normals = false;
+
+layout(scalar, set = 0, binding = 0) uniform ViewBlock { FrameView view; } frame_view;
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D ids;
+layout(set = 0, binding = 3) uniform usampler2D normals;
+layout(scalar, push_constant) uniform Push { FilterLimits limits; } push;
 
 struct Surface {
   vec3 position;
