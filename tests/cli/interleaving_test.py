@@ -21,12 +21,13 @@ class InterleavingTest(CliTest):
         return self.succeed_json("diff", picture, reference, *options)
 
     def check(self, scene):
-        exact = self.draw(scene, "brute_exact")
-        psnr = {mode: self.against(self.draw(scene, mode), exact)["psnr"]
+        drawn = {mode: self.draw(scene, mode)
+                 for mode in ("brute_exact", "brute", "radiance", "irradiance", "irradiance_normals")}
+        psnr = {mode: self.against(drawn[mode], drawn["brute_exact"])["psnr"]
                 for mode in ("radiance", "irradiance", "irradiance_normals")}
         self.assertGreater(psnr["radiance"], max(psnr["irradiance"], psnr["irradiance_normals"]) + LEAST_LEAD, psnr)
         self.succeed("reference", scene, *SMALL, "--bounces", "1", "--spp", "256", "--parts", "-o", "traced.exr")
-        error = {mode: self.against(self.draw(scene, mode), "traced.exr", "--foreground")["relative_rmse"]
+        error = {mode: self.against(drawn[mode], "traced.exr", "--foreground")["relative_rmse"]
                  for mode in ("radiance", "brute")}
         self.assertLess(error["radiance"], MOST_OVER_BRUTE * error["brute"], error)
 

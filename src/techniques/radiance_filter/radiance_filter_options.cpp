@@ -71,7 +71,7 @@ const std::vector<Option>& options() {
        .default_value = true,
        .help =
            "beside edges, where the window lies to one side, its mean is carried back to the pixel along the "
-           "light's slope; filter two_pass"},
+           "light's slope"},
       {.name = "window",
        .default_value = 1,
        .minimum = 1,

@@ -51,8 +51,7 @@ GLOAM_SHARED_SIZE(Interleaving, 36)
 /// What the gather is told.
 struct GatherParams {
   Interleaving interleaving;
-  uvec2
-      host_values;  // address of what the host reads, more than one binding takes: four halves each, layers of rows
+  uvec2 host_values;  // an address: four halves a pixel, layers of rows; more than one binding takes
 };
 GLOAM_SHARED_SIZE(GatherParams, 44)
 
